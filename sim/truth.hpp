@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ghtrack {
+
+using Vec2 = Eigen::Vector2d;
+
+/// Index of an object among all objects of a world, 0, 1, …; stable during a run.
+using ObjectId = int;
+
+/// What an object looks like, for pictures and for occlusion. Sizes in metres.
+struct Outline {
+  enum class Shape { kBox, kDisc, kBalloon };
+  Shape shape = Shape::kDisc;
+  double length = 0.0;  // box: along its heading; disc, balloon: diameter
+  double width = 0.0;   // box: across its heading
+};
+
+/// What does not change about an object during a run.
+struct ObjectInfo {
+  ObjectId id = 0;
+  std::string name;        // unique in the scene
+  std::string regime;      // the kind of motion: "train", "ball", "balloon"
+  std::string label;       // the class that a perfect detector reports
+  std::uint64_t key = 0;   // names the object's random streams; depends on its name alone
+  Outline outline;         // of each of its rigid parts
+};
+
+/// Kinematic truth of one object, world frame.
+struct TruthState {
+  ObjectId id = 0;
+  Vec2 position = Vec2::Zero();      // [m]
+  Vec2 velocity = Vec2::Zero();      // [m/s]
+  Vec2 acceleration = Vec2::Zero();  // [m/s²]
+};
+
+/// Pose of one rigid part, such as one car of a train, for pictures and occlusion.
+struct BodyPose {
+  ObjectId id = 0;
+  Vec2 position = Vec2::Zero();  // [m]
+  double angle = 0.0;            // [rad], counter-clockwise
+};
+
+/// The state of the world at one instant. Objects that have not appeared yet are absent.
+struct TruthSnapshot {
+  double time = 0.0;  // [s]
+  std::vector<TruthState> objects;
+  std::vector<BodyPose> bodies;
+};
+
+}  // namespace ghtrack

@@ -1,0 +1,47 @@
+# Every target of the project is made here, so that all share one standard, one set of warnings and one layout.
+
+include(GNUInstallDirs)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+add_library(ghtrack_options INTERFACE)
+target_compile_features(ghtrack_options INTERFACE cxx_std_20)
+target_compile_options(
+  ghtrack_options
+  INTERFACE # The same bits from every compiler: no fused multiply-add, no reordering of sums.
+            -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+            -Wno-sign-conversion $<$<BOOL:${GHTRACK_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# ghtrack_add_library(<name> SOURCES ... HEADERS ... [PUBLIC targets...] [PRIVATE targets...])
+# A library named ghtrack::<name>, whose headers are included from the root: "tracker/track.hpp".
+function(ghtrack_add_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
+  set(target ghtrack_${name})
+  if(arg_SOURCES)
+    add_library(${target} STATIC ${arg_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE $<BUILD_INTERFACE:ghtrack_options> ${arg_PRIVATE})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+    target_link_libraries(${target} INTERFACE ${arg_PUBLIC})
+  endif()
+  add_library(ghtrack::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} OUTPUT_NAME ghtrack_${name})
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS "${CMAKE_SOURCE_DIR}" FILES ${arg_HEADERS})
+endfunction()
+
+# ghtrack_add_test(<folder> SOURCES ... LINK targets... [DEFINITIONS ...])
+# One test program per folder of tests/, with the folder's name as its ctest label.
+function(ghtrack_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK;DEFINITIONS")
+  set(target ${name}_tests)
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ghtrack_options ${arg_LINK} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${target} PRIVATE GHTRACK_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ${arg_DEFINITIONS})
+  gtest_discover_tests(${target} PROPERTIES LABELS ${name} TIMEOUT 300 DISCOVERY_TIMEOUT 60)
+endfunction()
