@@ -23,11 +23,11 @@ struct Outline {
 /// What does not change about an object during a run.
 struct ObjectInfo {
   ObjectId id = 0;
-  std::string name;        // unique in the scene
-  std::string regime;      // the kind of motion: "train", "ball", "balloon"
-  std::string label;       // the class that a perfect detector reports
-  std::uint64_t key = 0;   // names the object's random streams; depends on its name alone
-  Outline outline;         // of each of its rigid parts
+  std::string name;       // unique in the scene
+  std::string regime;     // the kind of motion: "train", "ball", "balloon"
+  std::string label;      // the class that a perfect detector reports
+  std::uint64_t key = 0;  // names the object's random streams; depends on its name alone
+  Outline outline;        // of each of its rigid parts
 };
 
 /// Kinematic truth of one object, world frame.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+/// Elementary functions made of IEEE 754 operations alone (+ − × ÷ and exact scalings), so that the
+/// same argument gives the same bits on every CPU and with every C library; libm picks another
+/// variant, with other last bits, on a processor that has fused multiply-add. Accurate to a few
+/// units in the last place over the ranges that are named.
+namespace ghtrack::portable {
+
+inline constexpr double kPi = 3.141592653589793;
+
+struct SinCos {
+  double sin;
+  double cos;
+};
+
+/// Natural logarithm of a normal number x > 0.
+double log(double x);
+
+/// e^x; 0 below −700, infinity above 709.
+double exp(double x);
+
+/// x^y for x > 0.
+double pow(double x, double y);
+
+/// Sine and cosine of 2π `turns`, for any |turns| < 2^52.
+SinCos sin_cos_of_turns(double turns);
+
+/// Sine and cosine of an angle [rad]; the error grows as |angle| × 1e-16.
+SinCos sin_cos(double angle);
+
+/// Angle of the vector (x, y) in (−π, π] [rad]; 0 for the null vector.
+double atan2(double y, double x);
+
+}  // namespace ghtrack::portable
