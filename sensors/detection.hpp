@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +10,7 @@ namespace ghtrack {
 
 /// One report of a sensor: something seems to be here. It carries no identity.
 struct Detection {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();      // world frame [m]
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();        // world frame [m]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the position's error [m²]
   std::string label;  // the reported class, such as "ball"; empty if the sensor says nothing
 };
@@ -17,8 +19,15 @@ struct Detection {
 /// The order of the detections carries no information.
 struct Scan {
   double time = 0.0;  // [s] since the scene's start
-  int sensor = 0;     // index into the scene's list of sensors
+  int sensor = 0;     // index into the list of sensors
   std::vector<Detection> detections;
+};
+
+/// What a tracker may know of a sensor beforehand: its data sheet.
+struct SensorTraits {
+  double period = 1.0;  // time between scans [s]
+  double sigma = 1.0;   // typical 1-sigma position error per axis [m]; filters are designed for it
+  std::optional<Eigen::AlignedBox2d> field_of_view;  // world frame [m]; absent: sees everything
 };
 
 }  // namespace ghtrack

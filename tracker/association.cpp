@@ -1,0 +1,143 @@
+#include "tracker/association.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace ghtrack {
+namespace {
+
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
+
+/// State of the successive shortest path method. Column j < detections is a detection, column
+/// detections + i is the private miss column of track i.
+class ShortestPaths {
+ public:
+  ShortestPaths(const CandidateTable& table, int detections, double miss_cost)
+      : table_(table),
+        detections_(detections),
+        miss_cost_(miss_cost),
+        owner_(detections + table.rows(), kMissed),
+        price_(owner_.size(), 0.0),
+        distance_(owner_.size(), kUnreached),
+        parent_(owner_.size(), kMissed),
+        assigned_column_(table.rows(), kMissed) {}
+
+  std::vector<int> solve() {
+    for (int track = 0; track < table_.rows(); ++track) augment(track);
+    std::vector<int> result(table_.rows(), kMissed);
+    for (int column = 0; column < detections_; ++column) {
+      if (owner_[column] != kMissed) result[owner_[column]] = column;
+    }
+    return result;
+  }
+
+ private:
+  struct Entry {
+    double distance;
+    int column;
+    bool operator>(const Entry& other) const {
+      return std::tie(distance, column) > std::tie(other.distance, other.column);
+    }
+  };
+
+  /// Finds the cheapest way to give `track` a column, moving other tracks where that pays.
+  void augment(int track) {
+    heap_.clear();
+    reached_.clear();
+    settled_.clear();
+    relax_row(track, 0.0);
+    int free_column = kMissed;
+    double shortest = 0.0;
+    while (free_column == kMissed) {
+      std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
+      const Entry nearest = heap_.back();
+      heap_.pop_back();
+      if (nearest.distance > distance_[nearest.column]) continue;  // superseded
+      settled_.push_back(nearest.column);
+      if (owner_[nearest.column] == kMissed) {
+        free_column = nearest.column;
+        shortest = nearest.distance;
+      } else {
+        relax_row(owner_[nearest.column], nearest.distance);
+      }
+    }
+    for (const int column : settled_) price_[column] += distance_[column] - shortest;
+    for (int column = free_column; column != kMissed;) {
+      const int row = parent_[column];
+      const int previous = row == track ? kMissed : assigned_column_[row];
+      owner_[column] = row;
+      assigned_column_[row] = column;
+      column = previous;
+    }
+    for (const int column : reached_) distance_[column] = kUnreached;
+  }
+
+  /// Reduced costs of a row are measured from its own column, so that they are never negative.
+  void relax_row(int row, double base) {
+    const int own = assigned_column_[row];
+    const double offset = own == kMissed ? base : base - cost_of(row, own) + price_[own];
+    for (const Candidate& candidate : table_.row(row)) {
+      relax(row, candidate.detection, offset + candidate.cost - price_[candidate.detection]);
+    }
+    relax(row, detections_ + row, offset + miss_cost_ - price_[detections_ + row]);
+  }
+
+  void relax(int row, int column, double distance) {
+    if (!(distance < distance_[column])) return;
+    if (distance_[column] == kUnreached) reached_.push_back(column);
+    distance_[column] = distance;
+    parent_[column] = row;
+    heap_.push_back({distance, column});
+    std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
+  }
+
+  double cost_of(int row, int column) const {
+    if (column >= detections_) return miss_cost_;
+    const auto candidates = table_.row(row);
+    return std::find_if(candidates.begin(), candidates.end(),
+                        [&](const Candidate& c) { return c.detection == column; })
+        ->cost;
+  }
+
+  const CandidateTable& table_;
+  int detections_;
+  double miss_cost_;
+  std::vector<int> owner_;            // of each column: its track
+  std::vector<double> price_;         // of each column: its dual variable
+  std::vector<double> distance_;      // of each column, during one search
+  std::vector<int> parent_;           // of each column, during one search: the row before it
+  std::vector<int> assigned_column_;  // of each row
+  std::vector<Entry> heap_;
+  std::vector<int> reached_, settled_;
+};
+
+}  // namespace
+
+std::vector<int> assign_globally(const CandidateTable& table, int detections, double miss_cost) {
+  return ShortestPaths(table, detections, miss_cost).solve();
+}
+
+std::vector<int> assign_greedily(const CandidateTable& table, int detections) {
+  struct Pair {
+    double cost;
+    int track, detection;
+  };
+  std::vector<Pair> pairs;
+  for (int track = 0; track < table.rows(); ++track) {
+    for (const Candidate& c : table.row(track)) pairs.push_back({c.cost, track, c.detection});
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return std::tie(a.cost, a.track, a.detection) < std::tie(b.cost, b.track, b.detection);
+  });
+  std::vector<int> result(table.rows(), kMissed);
+  std::vector<bool> taken(detections, false);
+  for (const Pair& pair : pairs) {
+    if (result[pair.track] != kMissed || taken[pair.detection]) continue;
+    result[pair.track] = pair.detection;
+    taken[pair.detection] = true;
+  }
+  return result;
+}
+
+}  // namespace ghtrack
