@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "tracker/filters/filter.hpp"
+
+namespace ghtrack {
+
+/// Which detection belongs to which track?
+enum class Association {
+  kNearestGlobal,  // the assignment with the least total distance
+  kNearestGreedy,  // the nearest pair first
+  kKnown,          // told by the simulation, as in the textbook's experiments
+};
+
+constexpr std::array<std::pair<std::string_view, Association>, 3> enum_names(Association) {
+  return {{{"nearest-global", Association::kNearestGlobal},
+           {"nearest-greedy", Association::kNearestGreedy},
+           {"known", Association::kKnown}}};
+}
+
+/// A rule "count of the last `scans` scans": hits that confirm a track, misses that end it.
+struct HitRule {
+  static constexpr std::string_view about = "confirms a track after enough hits";
+  int hits = 3;
+  int scans = 5;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("hits", &HitRule::hits, {.meaning = "detections needed", .minimum = 1, .maximum = 64});
+    v.field("scans", &HitRule::scans,
+            {.meaning = "among this many last scans", .minimum = 1, .maximum = 64});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (hits > scans) report("hits", "more hits are asked for than there are scans");
+  }
+};
+
+struct MissRule {
+  static constexpr std::string_view about = "ends a track after too many misses";
+  int misses = 5;
+  int scans = 5;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("misses", &MissRule::misses,
+            {.meaning = "missed scans that end the track", .minimum = 1, .maximum = 64});
+    v.field("scans", &MissRule::scans,
+            {.meaning = "among this many last scans", .minimum = 1, .maximum = 64});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (misses > scans) report("misses", "more misses are asked for than there are scans");
+  }
+};
+
+struct TrackerConfig {
+  static constexpr std::string_view about = "turns detections into tracks";
+  static constexpr std::string_view kDefaultFilter = "default";
+
+  Association association = Association::kNearestGlobal;
+  double gate = 3.5;            // radius in sigmas of the innovation (Mahalanobis distance)
+  double initial_speed = 30.0;  // 1-sigma speed per axis of a target seen once [m/s]
+  HitRule confirm;
+  MissRule drop_tentative{.misses = 2, .scans = 2};
+  MissRule drop_confirmed{.misses = 5, .scans = 5};
+  std::map<std::string, FilterConfig> filters;  // by reported class, or "default"
+
+  /// The filter of a new track whose first detection reports `label`.
+  const FilterConfig& filter_for(const std::string& label) const;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("association", &TrackerConfig::association,
+            {.meaning = "how detections are given to tracks"});
+    v.field("gate", &TrackerConfig::gate,
+            {.unit = "1", .meaning = "a detection farther from the prediction than this many sigmas of "
+                                     "the innovation is not for this track",
+             .maximum = 100.0, .above = 0.0});
+    v.field("initial_speed", &TrackerConfig::initial_speed,
+            {.unit = "m/s", .meaning = "spread of speeds per axis (1 sigma), for the gate of a "
+                                       "track's second detection",
+             .maximum = 1e5, .above = 0.0});
+    v.field("confirm", &TrackerConfig::confirm, {.meaning = "when a track counts as real"});
+    v.field("drop_tentative", &TrackerConfig::drop_tentative,
+            {.meaning = "when a track that is not confirmed yet is given up"});
+    v.field("drop_confirmed", &TrackerConfig::drop_confirmed,
+            {.meaning = "when a confirmed track is given up; a miss outside the sensor's field of "
+                        "view does not count"});
+    v.field("filters", &TrackerConfig::filters,
+            {.meaning = "filter by reported class; `default` serves every other class and "
+                        "detections without one"});
+  }
+};
+
+}  // namespace ghtrack
