@@ -8,13 +8,13 @@
 namespace ghtrack {
 
 /// The origin of a false detection.
-inline constexpr ObjectId kClutter = -1;
+inline constexpr ObjectId kClutterOrigin = -1;
 
 /// A scan together with the answer sheet. The tracker gets the scan alone; the origins are for
 /// scoring, and for the textbook's `association: known`.
 struct Observation {
   Scan scan;
-  std::vector<ObjectId> origins;  // origins[i] made scan.detections[i]; kClutter if nothing did
+  std::vector<ObjectId> origins;  // origins[i] made scan.detections[i]; kClutterOrigin if nothing did
 };
 
 }  // namespace ghtrack

@@ -85,7 +85,7 @@ Observation observe(const SensorConfig& sensor, int sensor_index, std::int64_t s
       detection.position = view->min() + Vec2(across, up).cwiseProduct(view->sizes());
       detection.covariance = variance * Eigen::Matrix2d::Identity();
       if (sensor.classify > 0.0) detection.label = pick(labels, stream);
-      found.emplace_back(std::move(detection), kClutter);
+      found.emplace_back(std::move(detection), kClutterOrigin);
     }
   }
 

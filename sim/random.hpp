@@ -29,6 +29,14 @@ constexpr std::uint64_t key_of(std::string_view name) {
   return hash;
 }
 
+/// One key for the pair (first, second), in that order: the finaliser of SplitMix64.
+constexpr std::uint64_t combine(std::uint64_t first, std::uint64_t second) {
+  std::uint64_t mixed = first ^ (second + 0x9e3779b97f4a7c15 + (first << 6) + (first >> 2));
+  mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9;
+  mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111eb;
+  return mixed ^ (mixed >> 31);
+}
+
 /// Random numbers as a pure function of (seed, purpose, object, step): no stream depends on how
 /// many numbers another one has drawn, so adding an object changes nobody else's noise, and any
 /// step of any run can be replayed alone.
