@@ -1,0 +1,106 @@
+// The one-way dependencies of the architecture, checked over every #include of the tree.
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Folders = std::vector<std::string>;
+
+/// What each folder may include, beside itself. A file of a longer path obeys the longest match.
+const std::map<std::string, Folders> kAllowed = {
+    {"sim", {}},
+    {"tracker", {"sensors/detection.hpp"}},
+    {"tracker/filters", {}},
+    {"sensors/detection.hpp", {}},
+    {"sensors", {"sim/truth.hpp", "sim/random.hpp"}},
+    {"scenes/schema", {"sim", "sensors", "tracker"}},
+    {"tools/record", {"sim/truth.hpp", "sensors", "tracker"}},
+    {"tools/metrics", {"tools/record", "sim/truth.hpp", "sensors", "tracker"}},
+    {"tools/pipeline", {"tools/record", "scenes", "sim", "sensors", "tracker"}},
+    {"tools/render", {"tools/record", "sim/truth.hpp", "sensors", "tracker"}},
+    {"tools/experiment",
+     {"tools/pipeline", "tools/metrics", "tools/record", "scenes", "sim", "sensors", "tracker"}},
+    {"tools/report", {"tools/experiment", "tools/metrics", "tools/record", "scenes", "tracker"}},
+    {"tools/cli", {"tools", "scenes", "sim", "sensors", "tracker"}},
+    {"tools/bench", {"tools", "scenes", "sim", "sensors", "tracker"}},
+};
+
+/// The only folders or files that may include a library's headers.
+const std::map<std::string, Folders> kOwners = {
+    {"box2d/", {"sim/world.cpp", "tools/bench"}},
+    {"opencv2/", {"tools/render", "tools/bench"}},
+    {"yaml-cpp/", {"scenes/schema"}},
+    {"CLI/", {"tools/cli"}},
+    {"Random123/", {"sim/random.cpp"}},
+};
+
+bool starts_with_any(const std::string& path, const Folders& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const std::string& prefix) { return path.rfind(prefix, 0) == 0; });
+}
+
+std::string layer_of(const std::string& path) {
+  std::string best;
+  for (const auto& [layer, allowed] : kAllowed) {
+    if (path.rfind(layer, 0) == 0 && layer.size() > best.size()) best = layer;
+  }
+  return best;
+}
+
+bool is_allowed(const std::string& file, const std::string& included) {
+  for (const auto& [library, owners] : kOwners) {
+    if (included.rfind(library, 0) == 0) return starts_with_any(file, owners);
+  }
+  const std::string target = layer_of(included);
+  if (target.empty()) return true;  // the standard library and unrestricted libraries
+  const std::string layer = layer_of(file);
+  return included.rfind(layer + "/", 0) == 0 || starts_with_any(included, kAllowed.at(layer));
+}
+
+std::vector<std::string> forbidden_includes(const fs::path& root, const std::string& folder) {
+  static const std::regex include(R"(^\s*#include\s+[<"]([^>"]+)[>"])");
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".hpp" && extension != ".cpp") continue;
+    const std::string file = fs::relative(entry.path(), root).string();
+    std::ifstream text(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(text, line);) {
+      if (std::regex_search(line, match, include) && !is_allowed(file, match[1])) {
+        found.push_back(file + " includes " + match[1].str());
+      }
+    }
+  }
+  return found;
+}
+
+// Property: holds for every source file of the project.
+TEST(Layers, NoFolderIncludesWhatItMustNotKnow) {
+  for (const char* folder : {"sim", "sensors", "tracker", "scenes", "tools"}) {
+    EXPECT_THAT(forbidden_includes(GHTRACK_SOURCE_DIR, folder), testing::IsEmpty());
+  }
+}
+
+// Derived: the rules themselves, on made-up includes.
+TEST(Layers, TheRulesTellAllowedFromForbidden) {
+  EXPECT_TRUE(is_allowed("tracker/gate.cpp", "sensors/detection.hpp"));
+  EXPECT_TRUE(is_allowed("tracker/gate.cpp", "tracker/filters/filter.hpp"));
+  EXPECT_FALSE(is_allowed("tracker/filters/gh.hpp", "tracker/track.hpp"));
+  EXPECT_FALSE(is_allowed("tracker/gate.cpp", "sim/truth.hpp"));
+  EXPECT_FALSE(is_allowed("tracker/gate.cpp", "sensors/observation.hpp"));
+  EXPECT_FALSE(is_allowed("sim/environment.cpp", "box2d/box2d.h"));
+  EXPECT_FALSE(is_allowed("sim/world.cpp", "sensors/detection.hpp"));
+  EXPECT_FALSE(is_allowed("tools/metrics/gospa.cpp", "scenes/schema/scene.hpp"));
+  EXPECT_FALSE(is_allowed("tools/cli/main.cpp", "opencv2/core.hpp"));
+}
+
+}  // namespace
