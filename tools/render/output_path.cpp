@@ -1,0 +1,97 @@
+#include "tools/render/output_path.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+#include "tools/render/errors.hpp"
+
+namespace ghtrack::render {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kLongestName = 200;
+constexpr std::uintmax_t kLeastSpace = 64 * 1024;  // [B]; less than this holds no picture
+
+bool is_plain(std::string_view name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  };
+  return !name.empty() && name.size() <= kLongestName && name.front() != '.' &&
+         name.front() != '-' && std::all_of(name.begin(), name.end(), plain);
+}
+
+std::string listed(std::initializer_list<std::string_view> words) {
+  std::string list;
+  for (const std::string_view word : words) {
+    if (!list.empty()) list += ", ";
+    list += word;
+  }
+  return list;
+}
+
+/// Quotes what a user gave, without control characters and not at full length.
+std::string quoted(const std::string& text) {
+  constexpr std::size_t kShown = 120;
+  std::string result = "'";
+  for (const char c : text.substr(0, kShown))
+    result += (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) ? '?' : c;
+  return result + (text.size() > kShown ? "…'" : "'");
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+void check_output_path(const fs::path& path, std::initializer_list<std::string_view> extensions) {
+  const std::string given = path.string();
+  const std::string name = path.filename().string();
+  if (given.find("://") != std::string::npos || !is_plain(name))
+    throw RequestError("cannot write " + quoted(given) +
+                       ": a file name consists of A-Z a-z 0-9 . _ - only, at most 200, and does "
+                       "not start with a dot or a dash");
+  const std::string extension = path.extension().empty() ? "" : path.extension().string().substr(1);
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    throw RequestError("cannot write " + quoted(given) + ": its extension is " +
+                       (extension.empty() ? "missing" : quoted(extension)) +
+                       "; available: " + listed(extensions));
+  std::error_code error;
+  const fs::path folder = folder_of(path);
+  if (!fs::is_directory(folder, error))
+    throw OutputError("cannot write " + quoted(given) + ": the folder " + quoted(folder.string()) +
+                      " does not exist");
+  if (fs::is_directory(path, error))
+    throw OutputError("cannot write " + quoted(given) + ": it is a folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError("cannot write " + quoted(given) + ": the folder " + quoted(folder.string()) +
+                      " is not writable");
+  if (const std::string_view problem = space_problem(folder); !problem.empty())
+    throw OutputError("cannot write " + quoted(given) + ": " + std::string(problem));
+}
+
+fs::path partial_path(const fs::path& path) {
+  const fs::path absolute = fs::absolute(path);
+  return absolute.parent_path() /
+         (absolute.stem().string() + ".partial" + absolute.extension().string());
+}
+
+void commit_file(const fs::path& partial, const fs::path& path) {
+  std::error_code error;
+  fs::rename(partial, path, error);
+  if (error) throw OutputError("cannot write " + quoted(path.string()) + ": " + error.message());
+}
+
+std::string_view space_problem(const fs::path& folder) {
+  std::error_code error;
+  const fs::space_info space = fs::space(folder.empty() ? fs::path(".") : folder, error);
+  return !error && space.available < kLeastSpace ? "no space left on device" : "";
+}
+
+}  // namespace ghtrack::render

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sensors/observation.hpp"
+#include "sim/truth.hpp"
+#include "tools/render/errors.hpp"
+#include "tools/render/layers.hpp"
+#include "tracker/track.hpp"
+
+namespace ghtrack::render {
+
+/// A rectangle of the world [m], min ≤ max.
+struct Rectangle {
+  Vec2 min = Vec2::Zero();
+  Vec2 max = Vec2::Zero();
+};
+
+/// Who turns images into a file.
+enum class Encoder {
+  kAutomatic,  // ffmpeg if it is installed, else OpenCV
+  kFfmpeg,     // a pipe to the program `ffmpeg`: half the time and better quality
+  kOpenCv,     // OpenCV's own FFmpeg backend: no other process
+};
+
+/// How a video is to be made.
+struct VideoOptions {
+  /// The file. Its folder must exist; its name consists of A-Z a-z 0-9 . _ - and does not start
+  /// with a dot or a dash; its extension chooses the format: mp4 (H.264), webm (VP9), avi (Motion
+  /// JPEG), mkv (lossless FFV1), gif, or png (one picture: the last frame).
+  std::filesystem::path path;
+  int width = 1280;          // [px], even
+  int height = 720;          // [px], even
+  double fps = 30.0;         // frames per second of video time
+  double slow = 1.0;         // video time per scene time: 4 shows the scene four times slower
+  double from = 0.0;         // [s] scene time of the first frame
+  std::optional<double> to;  // [s] scene time at which the video ends; the scene's end if absent
+  Layers layers = kDefaultLayers;
+  Encoder encoder = Encoder::kAutomatic;
+  std::optional<ObjectId> follow;    // keeps this object in the middle of the picture
+  double follow_width = 40.0;        // [m] of the world across the picture when following
+  std::optional<ObjectId> close_up;  // shows this object enlarged in a corner
+};
+
+/// A scene sensor, as far as it is drawn.
+struct SensorDrawing {
+  std::string name;
+  double rate = 0.0;                // [Hz]
+  std::vector<Vec2> field_of_view;  // its corners in order [m]; empty: sees everything
+};
+
+/// One of several compared filters, or the scene's own tracker.
+struct PanelDrawing {
+  std::string name;   // such as "nimble"
+  std::string gains;  // such as "g 0.8  h 0.3"
+};
+
+/// What stays the same in every frame of a scene.
+struct SceneDrawing {
+  std::string title;
+  std::uint64_t seed = 0;
+  /// The part of the world to show; it should hold every object over the whole run. If absent, the
+  /// fields of view, rails and walls are shown.
+  std::optional<Rectangle> world;
+  std::optional<double> ground_height;     // [m]; absent: no ground
+  std::vector<std::array<Vec2, 2>> walls;  // segments [m]
+  std::vector<std::vector<Vec2>> rails;    // polylines [m], one per track
+  std::vector<SensorDrawing> sensors;
+  std::vector<ObjectInfo> objects;
+  /// What is compared side by side: at most six, each a panel of its own. Empty or one: one
+  /// picture.
+  std::vector<PanelDrawing> panels;
+};
+
+/// The wind at one place, for the arrows.
+struct WindSample {
+  Vec2 position = Vec2::Zero();  // [m]
+  Vec2 velocity = Vec2::Zero();  // [m/s]
+};
+
+/// What one tracker says at the time of a frame.
+struct PanelFrame {
+  TrackSnapshot tracks;         // the latest at the frame's time
+  std::optional<double> gospa;  // [m], running; shown if given
+  std::optional<double> rmse;   // [m] of the positions, running; shown and plotted if given
+};
+
+/// What changes from frame to frame.
+struct VideoFrame {
+  double time = 0.0;                      // [s] scene time
+  TruthSnapshot truth;                    // at this time
+  std::vector<Observation> observations;  // the latest scan of every sensor that has reported
+  std::vector<PanelFrame> panels;         // in the order of SceneDrawing::panels, at least one
+  std::vector<WindSample> wind;           // empty: no arrows
+  std::size_t scans = 0;                  // until now, of all sensors
+};
+
+/// Number of frames of a video of a scene of this duration [s]: both ends are shown, as far as
+/// whole frames reach.
+/// @throws RequestError if rate, slow motion or interval cannot be
+std::size_t frame_count(const VideoOptions& options, double duration);
+
+/// Scene time [s] of a frame; frame 0 is at `options.from`.
+double frame_time(const VideoOptions& options, std::size_t index);
+
+/// The smallest rectangle that holds these points and an extra margin of that share on each side.
+/// Points that are not finite are ignored. Absent if no point is left.
+std::optional<Rectangle> bounding_rectangle(const std::vector<Vec2>& points, double margin = 0.05);
+
+/// Where arrows for the wind are drawn: a coarse grid over the world that is shown.
+std::vector<Vec2> wind_points(const VideoOptions& options, const SceneDrawing& scene);
+
+/// Checks what can be checked without writing: size, rates, interval, name, extension, folder.
+/// @throws RequestError naming the option and what is allowed
+/// @throws OutputError if the folder is missing or cannot be written to
+void check_request(const VideoOptions& options);
+
+class VideoSink;
+
+/// Draws frames and writes them to a file. Until finish() has verified the file (its header counts
+/// as many frames as were added and the last one can be decoded) it is called
+/// `<stem>.partial.<extension>`; without finish() the partial file is removed.
+/// The same frames give the same bytes (mkv, webm: the same decoded frames).
+class VideoWriter {
+ public:
+  /// @throws RequestError, OutputError as check_request(), and OutputError if the module for
+  ///         pictures and video or the encoder is not available
+  VideoWriter(const VideoOptions& options, const SceneDrawing& scene);
+  ~VideoWriter();
+  VideoWriter(VideoWriter&&) noexcept;
+  VideoWriter& operator=(VideoWriter&&) noexcept;
+
+  /// Frames must come in the order of time: trails, labels and plots remember.
+  /// @throws OutputError if the frame cannot be written
+  void add_frame(const VideoFrame& frame);
+
+  /// Writes the picture drawn last to a PNG file as well; its name obeys the same rules.
+  void write_poster(const std::filesystem::path& path);
+
+  /// Completes, verifies and names the file. No frame may follow.
+  /// @throws OutputError if the file is not whole, with the reason; the partial file is removed
+  void finish();
+
+ private:
+  std::unique_ptr<VideoSink> sink_;
+};
+
+}  // namespace ghtrack::render
