@@ -14,7 +14,8 @@ inline constexpr ObjectId kClutterOrigin = -1;
 /// scoring, and for the textbook's `association: known`.
 struct Observation {
   Scan scan;
-  std::vector<ObjectId> origins;  // origins[i] made scan.detections[i]; kClutterOrigin if nothing did
+  std::vector<ObjectId>
+      origins;  // origins[i] made scan.detections[i]; kClutterOrigin if nothing did
 };
 
 }  // namespace ghtrack

@@ -38,10 +38,14 @@ struct PositionSensor {
     v.field("noise", &PositionSensor::noise,
             {.unit = "m", .meaning = "1-sigma error per axis", .maximum = 1e6, .above = 0.0});
     v.field("noise_y", &PositionSensor::noise_y,
-            {.unit = "m", .meaning = "1-sigma error along y if it differs", .maximum = 1e6,
+            {.unit = "m",
+             .meaning = "1-sigma error along y if it differs",
+             .maximum = 1e6,
              .above = 0.0});
     v.field("bias", &PositionSensor::bias,
-            {.unit = "m", .meaning = "constant error added to every position", .minimum = -1e6,
+            {.unit = "m",
+             .meaning = "constant error added to every position",
+             .minimum = -1e6,
              .maximum = 1e6});
   }
 };

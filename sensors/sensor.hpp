@@ -17,11 +17,11 @@ struct SensorConfig {
   static constexpr std::string_view about = "turns the truth into unlabelled detections";
 
   std::string name;
-  double rate = 30.0;   // scans per second [Hz]
-  double phase = 0.0;   // time of the first scan [s]
+  double rate = 30.0;  // scans per second [Hz]
+  double phase = 0.0;  // time of the first scan [s]
   double detection_probability = 1.0;
-  double clutter = 0.0;   // expected false detections per scan
-  double classify = 1.0;  // probability of the right class; 0: reports no class
+  double clutter = 0.0;             // expected false detections per scan
+  double classify = 1.0;            // probability of the right class; 0: reports no class
   std::vector<Vec2> field_of_view;  // lower left and upper right corner [m]; empty: everything
   SensorModel model;
 
@@ -34,24 +34,35 @@ struct SensorConfig {
     v.field("phase", &SensorConfig::phase,
             {.unit = "s", .meaning = "time of the first scan", .minimum = 0.0, .maximum = 1e6});
     v.field("detection_probability", &SensorConfig::detection_probability,
-            {.unit = "1", .meaning = "chance that an object in view is detected in a scan",
-             .minimum = 0.0, .maximum = 1.0});
+            {.unit = "1",
+             .meaning = "chance that an object in view is detected in a scan",
+             .minimum = 0.0,
+             .maximum = 1.0});
     v.field("clutter", &SensorConfig::clutter,
-            {.unit = "1", .meaning = "expected false detections per scan, Poisson distributed over the field of view",
-             .minimum = 0.0, .maximum = 1e5});
+            {.unit = "1",
+             .meaning =
+                 "expected false detections per scan, Poisson distributed over the field of view",
+             .minimum = 0.0,
+             .maximum = 1e5});
     v.field("classify", &SensorConfig::classify,
-            {.unit = "1", .meaning = "chance that the reported class is right; 0: no class is reported",
-             .minimum = 0.0, .maximum = 1.0});
+            {.unit = "1",
+             .meaning = "chance that the reported class is right; 0: no class is reported",
+             .minimum = 0.0,
+             .maximum = 1.0});
     v.field("field_of_view", &SensorConfig::field_of_view,
-            {.unit = "m", .meaning = "lower left and upper right corner; without it everything is seen",
-             .minimum = -1e7, .maximum = 1e7, .max_items = 2});
+            {.unit = "m",
+             .meaning = "lower left and upper right corner; without it everything is seen",
+             .minimum = -1e7,
+             .maximum = 1e7,
+             .max_items = 2});
     v.tagged("kind", &SensorConfig::model, {.meaning = "what it measures"});
   }
 
   template <class Report>
   void check(Report&& report) const {
     const auto& view = field_of_view;
-    if (view.size() == 1) report("field_of_view", "two corners are needed: [[left, bottom], [right, top]]");
+    if (view.size() == 1)
+      report("field_of_view", "two corners are needed: [[left, bottom], [right, top]]");
     if (view.size() == 2 && !(view[0].array() < view[1].array()).all()) {
       report("field_of_view", "the first corner must lie left of and below the second");
     }

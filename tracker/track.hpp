@@ -12,9 +12,12 @@ enum class TrackStatus { kTentative, kConfirmed, kCoasting };
 
 constexpr std::string_view to_string(TrackStatus status) {
   switch (status) {
-    case TrackStatus::kTentative: return "tentative";
-    case TrackStatus::kConfirmed: return "confirmed";
-    case TrackStatus::kCoasting: return "coasting";
+    case TrackStatus::kTentative:
+      return "tentative";
+    case TrackStatus::kConfirmed:
+      return "confirmed";
+    case TrackStatus::kCoasting:
+      return "coasting";
   }
   return "";
 }

@@ -82,13 +82,17 @@ struct TrackerConfig {
     v.field("association", &TrackerConfig::association,
             {.meaning = "how detections are given to tracks"});
     v.field("gate", &TrackerConfig::gate,
-            {.unit = "1", .meaning = "a detection farther from the prediction than this many sigmas of "
-                                     "the innovation is not for this track",
-             .maximum = 100.0, .above = 0.0});
+            {.unit = "1",
+             .meaning = "a detection farther from the prediction than this many sigmas of "
+                        "the innovation is not for this track",
+             .maximum = 100.0,
+             .above = 0.0});
     v.field("initial_speed", &TrackerConfig::initial_speed,
-            {.unit = "m/s", .meaning = "spread of speeds per axis (1 sigma), for the gate of a "
-                                       "track's second detection",
-             .maximum = 1e5, .above = 0.0});
+            {.unit = "m/s",
+             .meaning = "spread of speeds per axis (1 sigma), for the gate of a "
+                        "track's second detection",
+             .maximum = 1e5,
+             .above = 0.0});
     v.field("confirm", &TrackerConfig::confirm, {.meaning = "when a track counts as real"});
     v.field("drop_tentative", &TrackerConfig::drop_tentative,
             {.meaning = "when a track that is not confirmed yet is given up"});
