@@ -1,0 +1,97 @@
+#include "tools/record/run_writer.hpp"
+
+#include <optional>
+#include <utility>
+
+namespace ghtrack {
+
+TrackWriter::TrackWriter(std::filesystem::path path) : file_(std::move(path)) {
+  file_.write("t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y\n");
+}
+
+void TrackWriter::add(const TrackSnapshot& snapshot) {
+  if (snapshot.time != time_) file_.write(pending_.text());
+  pending_.clear();
+  time_ = snapshot.time;
+  for (const TrackEstimate& track : snapshot.tracks) {
+    pending_ << snapshot.time << track.id << to_string(track.status) << track.filter
+             << track.position.x() << track.position.y() << track.velocity.x() << track.velocity.y()
+             << track.acceleration.x() << track.acceleration.y() << track.prior_position.x()
+             << track.prior_position.y();
+    std::optional<double> rx, ry;
+    if (track.residual) {
+      rx = track.residual->x();
+      ry = track.residual->y();
+    }
+    pending_ << rx << ry << track.sigma.x() << track.sigma.y();
+    pending_.end();
+  }
+}
+
+void TrackWriter::commit() {
+  file_.write(pending_.text());
+  pending_.clear();
+  file_.commit();
+}
+
+RunWriter::RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
+                     std::vector<std::string> sensors)
+    : objects_(std::move(objects)),
+      sensors_(std::move(sensors)),
+      truth_(folder / "truth.csv"),
+      detections_(folder / "detections.csv"),
+      origins_(folder / "origins.csv"),
+      tracks_(folder / "tracks.csv") {
+  truth_.write("t,truth_id,name,kind,x,y,vx,vy,ax,ay\n");
+  detections_.write("t,sensor,class,x,y\n");
+  origins_.write("t,sensor,x,y,truth_id\n");
+}
+
+void RunWriter::add(const StepRecord& record) {
+  write_truth(record.truth);
+  write_observation(record.observation);
+  tracks_.add(record.tracks);
+}
+
+void RunWriter::commit() {
+  truth_.commit();
+  detections_.commit();
+  origins_.commit();
+  tracks_.commit();
+}
+
+void RunWriter::write_truth(const TruthSnapshot& truth) {
+  if (truth.time == truth_time_) return;  // several sensors saw the same instant
+  truth_time_ = truth.time;
+  rows_.clear();
+  for (const TruthState& state : truth.objects) {
+    const ObjectInfo& object = objects_.at(static_cast<std::size_t>(state.id));
+    rows_ << truth.time << state.id << object.name << object.regime << state.position.x()
+          << state.position.y() << state.velocity.x() << state.velocity.y()
+          << state.acceleration.x() << state.acceleration.y();
+    rows_.end();
+  }
+  truth_.write(rows_.text());
+}
+
+void RunWriter::write_observation(const Observation& observation) {
+  const Scan& scan = observation.scan;
+  const auto index = static_cast<std::size_t>(scan.sensor);
+  const std::string sensor =
+      index < sensors_.size() ? sensors_[index] : std::to_string(scan.sensor);
+  rows_.clear();
+  origin_rows_.clear();
+  for (std::size_t i = 0; i < scan.detections.size(); ++i) {
+    const Detection& detection = scan.detections[i];
+    rows_ << scan.time << sensor << detection.label << detection.position.x()
+          << detection.position.y();
+    rows_.end();
+    origin_rows_ << scan.time << sensor << detection.position.x() << detection.position.y()
+                 << observation.origins.at(i);
+    origin_rows_.end();
+  }
+  detections_.write(rows_.text());
+  origins_.write(origin_rows_.text());
+}
+
+}  // namespace ghtrack

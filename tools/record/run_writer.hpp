@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tools/record/atomic_file.hpp"
+#include "tools/record/csv_writer.hpp"
+#include "tools/record/step_record.hpp"
+
+namespace ghtrack {
+
+/// Writes tracks.csv:
+/// `t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y`. Of several scans
+/// at one instant the tracks after the last one are written, so that a track has one row per time.
+class TrackWriter {
+ public:
+  explicit TrackWriter(std::filesystem::path path);
+  void add(const TrackSnapshot& snapshot);
+  void commit();
+
+ private:
+  AtomicFile file_;
+  CsvRow pending_;  // the rows of the latest instant
+  double time_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Writes what happened in a run, scan by scan, into a folder: truth.csv, detections.csv,
+/// origins.csv and tracks.csv. The files get their names by commit(); without it none is left.
+class RunWriter {
+ public:
+  /// @param folder   must exist
+  /// @param sensors  names for the column `sensor`, by index; a sensor without a name is written as
+  ///                 its index
+  /// @throws WriteError if a file cannot be made; the other members throw it when writing fails
+  RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
+            std::vector<std::string> sensors = {});
+
+  void add(const StepRecord& record);
+  void commit();
+
+ private:
+  void write_truth(const TruthSnapshot& truth);
+  void write_observation(const Observation& observation);
+
+  std::vector<ObjectInfo> objects_;
+  std::vector<std::string> sensors_;
+  AtomicFile truth_, detections_, origins_;
+  TrackWriter tracks_;
+  CsvRow rows_, origin_rows_;  // working space
+  double truth_time_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace ghtrack
