@@ -1,0 +1,109 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sim/regimes/free_flight.hpp"
+#include "sim/regimes/motion.hpp"
+
+namespace ghtrack {
+
+class BalloonModel;
+
+/// A gas balloon in the wind, with V its volume, m envelope and gas, C_a the added-mass
+/// coefficient:
+///   (m + C_a ρ V) dv/dt = ½ ρ C_d π R² |w − v| (w − v) − (ρ V − m) g + [(1 + C_a) ρ V Dw/Dt]
+/// The last term, the pressure field of accelerating air, makes a balloon overshoot a gust
+/// (Batchelor 1967, section 6.8); it is off unless asked for.
+struct Balloon {
+  static constexpr std::string_view kind = "balloon";
+  static constexpr std::string_view about =
+      "a gas balloon: buoyancy, added mass, drag relative to the wind";
+  using Model = BalloonModel;
+
+  std::string type = "latex-11-inch";
+  Vec2 position = Vec2::Zero();
+  Vec2 velocity = Vec2::Zero();
+  double radius = 0.14;
+  double envelope_mass = 0.0032;
+  double gas_density = 0.1664;
+  double drag = 0.47;
+  double added_mass = 0.5;
+  bool fluid_acceleration = false;
+  double restitution = 0.6;
+  double friction = 0.4;
+
+  static std::span<const Balloon> presets();
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.preset("type", &Balloon::type, Balloon::presets(),
+             {.meaning = "published data of a balloon"});
+    v.field("position", &Balloon::position,
+            {.unit = "m",
+             .meaning = "of the centre at the start",
+             .required = true,
+             .minimum = -1e5,
+             .maximum = 1e5});
+    v.field("velocity", &Balloon::velocity,
+            {.unit = "m/s", .meaning = "at the start", .minimum = -150.0, .maximum = 150.0});
+    v.field("radius", &Balloon::radius,
+            {.unit = "m", .meaning = "of the sphere", .minimum = 0.02, .maximum = 20.0});
+    v.field(
+        "envelope_mass", &Balloon::envelope_mass,
+        {.unit = "kg", .meaning = "of envelope, string and load", .above = 0.0, .maximum = 1e5});
+    v.field("gas_density", &Balloon::gas_density,
+            {.unit = "kg/m^3",
+             .meaning = "of the gas inside: 0.1664 helium, 0.0838 hydrogen",
+             .minimum = 0.0,
+             .maximum = 10.0});
+    v.field("drag", &Balloon::drag,
+            {.unit = "1", .meaning = "drag coefficient", .minimum = 0.0, .maximum = 10.0});
+    v.field("added_mass", &Balloon::added_mass,
+            {.unit = "1",
+             .meaning = "mass of air moved along / mass of displaced air, 0.5 for a sphere",
+             .minimum = 0.0,
+             .maximum = 2.0});
+    v.field("fluid_acceleration", &Balloon::fluid_acceleration,
+            {.meaning = "include the pressure field of accelerating air"});
+    v.field("restitution", &Balloon::restitution,
+            {.unit = "1",
+             .meaning = "speed ratio of a bounce where the surface names none",
+             .minimum = 0.0,
+             .maximum = 1.0});
+    v.field("friction", &Balloon::friction,
+            {.unit = "1",
+             .meaning = "coefficient of sliding friction where the surface names none",
+             .minimum = 0.0,
+             .maximum = 10.0});
+  }
+};
+
+/// The equations of motion of one balloon.
+class BalloonModel {
+ public:
+  using State = FlightState;
+
+  explicit BalloonModel(const Balloon& balloon);
+
+  State start(const Environment& environment, double time) const;
+  void advance(State& state, const Environment& environment, double from, double to) const;
+  int objects() const { return 1; }
+  Kinematics kinematics(const State& state, const Environment& environment, double time,
+                        int object) const;
+  int bodies() const { return 1; }
+  RigidBody body(const State& state, int index) const;
+  ContactProperties contact() const;
+  void adopt(State& state, const RigidBody& body) const;
+
+ private:
+  FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
+
+  Balloon balloon_;
+  RoundBody round_;
+  double volume_;  // [m³]
+  double mass_;    // envelope and gas [kg]
+};
+
+}  // namespace ghtrack

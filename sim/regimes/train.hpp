@@ -1,0 +1,419 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "sim/regimes/motion.hpp"
+#include "sim/regimes/track.hpp"
+
+namespace ghtrack {
+
+/// `accelerate: 0.2`: the driver holds this acceleration as far as traction, adhesion and brakes
+/// go.
+struct Accelerate {
+  static constexpr std::string_view kind = "accelerate";
+  double acceleration = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.scalar(&Accelerate::acceleration,
+             {.unit = "m/s^2",
+              .meaning = "held as far as traction and brakes go; negative slows down to a halt",
+              .minimum = -10.0,
+              .maximum = 10.0});
+  }
+};
+
+/// `traction: 1`: this part of the traction that is available.
+struct Traction {
+  static constexpr std::string_view kind = "traction";
+  double fraction = 1.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.scalar(&Traction::fraction,
+             {.unit = "1",
+              .meaning = "part of the available traction; negative drives backwards",
+              .minimum = -1.0,
+              .maximum = 1.0});
+  }
+};
+
+/// A tractive force whatever its speed, rising over a ramp.
+struct Force {
+  static constexpr std::string_view kind = "force";
+  static constexpr std::string_view about = "a tractive force, whatever traction limits say";
+  double force = 0.0;
+  double ramp = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("force", &Force::force,
+            {.unit = "N",
+             .meaning = "in the end; negative: backwards",
+             .required = true,
+             .minimum = -1e7,
+             .maximum = 1e7});
+    v.field("ramp", &Force::ramp,
+            {.unit = "s",
+             .meaning = "time over which it rises linearly",
+             .minimum = 0.0,
+             .maximum = 1e4});
+  }
+};
+
+/// `coast: {}`: neither traction nor brakes.
+struct Coast {
+  static constexpr std::string_view kind = "coast";
+  static constexpr std::string_view about = "neither traction nor brakes";
+
+  template <class Visitor>
+  static void describe(Visitor&) {}
+};
+
+enum class BrakeKind { kService, kEmergency };
+
+constexpr std::array<std::pair<std::string_view, BrakeKind>, 2> enum_names(BrakeKind) {
+  return {{{"service", BrakeKind::kService}, {"emergency", BrakeKind::kEmergency}}};
+}
+
+/// `brake: service`: braked to a stand, and held there.
+struct Brake {
+  static constexpr std::string_view kind = "brake";
+  BrakeKind brake = BrakeKind::kService;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.scalar(&Brake::brake, {.meaning = "to a stand, and hold there"});
+  }
+};
+
+/// `target_speed: 40`: a driver who accelerates or brakes towards a speed and keeps it.
+struct TargetSpeed {
+  static constexpr std::string_view kind = "target_speed";
+  double speed = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.scalar(&TargetSpeed::speed, {.unit = "m/s",
+                                   .meaning = "accelerate or brake to this speed and keep it",
+                                   .minimum = -150.0,
+                                   .maximum = 150.0});
+  }
+};
+
+/// A station: the driver brakes so as to stand with the first car at a place of the track.
+struct StationStop {
+  static constexpr std::string_view kind = "stop_at";
+  double position = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.scalar(&StationStop::position,
+             {.unit = "m",
+              .meaning = "brake in time to stand with the first car at this place of the track",
+              .minimum = -1e6,
+              .maximum = 1e6});
+  }
+};
+
+using DriveCommand =
+    std::variant<Accelerate, Traction, Force, Coast, Brake, TargetSpeed, StationStop>;
+
+/// What the driver does from an instant or a place on.
+struct DrivePhase {
+  static constexpr std::string_view about = "what the driver does from an instant or a place on";
+  std::optional<double> at;
+  std::optional<double> at_position;
+  DriveCommand command;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("at", &DrivePhase::at,
+            {.unit = "s", .meaning = "time since the scene's start", .minimum = 0.0});
+    v.field("at_position", &DrivePhase::at_position,
+            {.unit = "m",
+             .meaning = "of the first car on the track, instead of `at`",
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.one_of(&DrivePhase::command, {.meaning = "what the driver does then"});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (at.has_value() == at_position.has_value())
+      report("at", "a phase needs either at or at_position");
+  }
+};
+
+/// A gradient between two places of the track.
+struct Grade {
+  double from = 0.0;
+  double to = 0.0;
+  double grade = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("from", &Grade::from,
+            {.unit = "m",
+             .meaning = "place on the track",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("to", &Grade::to,
+            {.unit = "m",
+             .meaning = "place on the track",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("grade", &Grade::grade,
+            {.unit = "1",
+             .meaning = "rise per metre; positive: uphill",
+             .required = true,
+             .minimum = -0.2,
+             .maximum = 0.2});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (!(to > from)) report("to", "must be greater than `from`");
+  }
+};
+
+/// Curve resistance where the track is drawn straight.
+struct SchematicCurve {
+  double from = 0.0;
+  double to = 0.0;
+  double radius = 500.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("from", &SchematicCurve::from,
+            {.unit = "m",
+             .meaning = "place on the track",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("to", &SchematicCurve::to,
+            {.unit = "m",
+             .meaning = "place on the track",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("radius", &SchematicCurve::radius,
+            {.unit = "m",
+             .meaning = "of the curve",
+             .required = true,
+             .minimum = 10.0,
+             .maximum = 1e6});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (!(to > from)) report("to", "must be greater than `from`");
+  }
+};
+
+/// A spring and a damper between neighbouring cars, with play.
+struct Couplers {
+  static constexpr std::string_view about = "springs between the cars; left out: rigid";
+  double stiffness = 3e7;
+  double damping = 1e6;
+  double slack = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("stiffness", &Couplers::stiffness,
+            {.unit = "N/m", .meaning = "of one coupling", .minimum = 1e4, .maximum = 1e9});
+    v.field("damping", &Couplers::damping,
+            {.unit = "N s/m", .meaning = "of one coupling", .minimum = 0.0, .maximum = 1e8});
+    v.field("slack", &Couplers::slack,
+            {.unit = "m",
+             .meaning = "play either way before it bears",
+             .minimum = 0.0,
+             .maximum = 1.0});
+  }
+};
+
+class TrainModel;
+
+/// A train on a track: Davis resistance, grades and curves, traction limited by force, power and
+/// adhesion, brakes that build up, and cars that are coupled rigidly or by springs.
+///   M dv/dt = F − (A + B v + C v²) − m g i(s) − 10 k / R per tonne,  M = m × rotating_mass
+struct Train {
+  static constexpr std::string_view kind = "train";
+  static constexpr std::string_view about =
+      "a train on a track: Davis resistance, traction, brakes, grades, curves, couplers";
+  using Model = TrainModel;
+
+  std::string stock = "ICE3";
+  Vec2 position = Vec2::Zero();
+  double heading_deg = 0.0;
+  std::vector<TrackElement> track;
+  double start = 0.0;
+  double speed = 0.0;
+  std::vector<DrivePhase> drive;
+  int cars = 8;
+  double car_length = 25.0;
+  double car_width = 2.95;
+  bool track_every_car = false;
+  double mass = 420e3;
+  std::optional<double> leading_mass;
+  double rotating_mass = 1.04;
+  double davis_a = 7396.1;
+  double davis_b = 51.9;
+  double davis_c = 8.697;
+  double curve_resistance = 800.0;
+  double max_force = 300e3;
+  double max_power = 8e6;
+  double adhesive_mass = 210e3;
+  double adhesion = 1.0;
+  double service_brake = 0.5;
+  double service_brake_build_up = 3.0;
+  double emergency_brake = 1.0;
+  double emergency_brake_build_up = 1.5;
+  std::optional<Couplers> couplers;
+  std::vector<Grade> grades;
+  std::vector<SchematicCurve> schematic_curves;
+
+  static std::span<const Train> presets();
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.preset("stock", &Train::stock, Train::presets(),
+             {.meaning = "published data of rolling stock, for the whole train"});
+    v.field("position", &Train::position,
+            {.unit = "m", .meaning = "of the track's beginning", .minimum = -1e5, .maximum = 1e5});
+    v.field("heading_deg", &Train::heading_deg,
+            {.unit = "deg",
+             .meaning = "of the track's beginning",
+             .minimum = -360.0,
+             .maximum = 360.0});
+    v.field(
+        "track", &Train::track,
+        {.meaning = "elements one after the other; straight before and beyond", .max_items = 1000});
+    v.field("start", &Train::start,
+            {.unit = "m",
+             .meaning = "place of the first car's centre on the track at the start",
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("speed", &Train::speed,
+            {.unit = "m/s",
+             .meaning = "at the start, kept until the first drive phase",
+             .minimum = -150.0,
+             .maximum = 150.0});
+    v.field("drive", &Train::drive,
+            {.meaning = "what the driver does, in this order", .max_items = 1000});
+    v.field("cars", &Train::cars,
+            {.unit = "1", .meaning = "number of cars", .minimum = 1.0, .maximum = 200.0});
+    v.field("car_length", &Train::car_length,
+            {.unit = "m", .meaning = "over the couplers", .minimum = 1.0, .maximum = 100.0});
+    v.field("car_width", &Train::car_width,
+            {.unit = "m", .meaning = "of each car", .minimum = 0.5, .maximum = 10.0});
+    v.field("track_every_car", &Train::track_every_car,
+            {.meaning = "each car is an object to be tracked, not the first alone"});
+    v.field("mass", &Train::mass,
+            {.unit = "kg", .meaning = "of the whole train", .minimum = 100.0, .maximum = 1e8});
+    v.field("leading_mass", &Train::leading_mass,
+            {.unit = "kg",
+             .meaning = "of the first car; left out: all cars are equal",
+             .minimum = 100.0,
+             .maximum = 1e7});
+    v.field("rotating_mass", &Train::rotating_mass,
+            {.unit = "1",
+             .meaning = "factor for the inertia of wheels and motors",
+             .minimum = 1.0,
+             .maximum = 2.0});
+    v.field("davis_a", &Train::davis_a,
+            {.unit = "N",
+             .meaning = "resistance A + B v + C v^2 of the whole train",
+             .minimum = 0.0,
+             .maximum = 1e7});
+    v.field("davis_b", &Train::davis_b,
+            {.unit = "N s/m", .meaning = "B", .minimum = 0.0, .maximum = 1e6});
+    v.field("davis_c", &Train::davis_c,
+            {.unit = "N s^2/m^2", .meaning = "C", .minimum = 0.0, .maximum = 1e5});
+    v.field(
+        "curve_resistance", &Train::curve_resistance,
+        {.unit = "m", .meaning = "k of 0.01 k/R kN per tonne", .minimum = 0.0, .maximum = 5000.0});
+    v.field("max_force", &Train::max_force,
+            {.unit = "N", .meaning = "largest traction", .minimum = 0.0, .maximum = 1e7});
+    v.field("max_power", &Train::max_power,
+            {.unit = "W", .meaning = "at the wheel rim", .minimum = 0.0, .maximum = 1e9});
+    v.field("adhesive_mass", &Train::adhesive_mass,
+            {.unit = "kg", .meaning = "on driven axles", .minimum = 0.0, .maximum = 1e8});
+    v.field("adhesion", &Train::adhesion,
+            {.unit = "1",
+             .meaning = "factor on the adhesion of Curtius and Kniffler: 1 dry, 0.5 wet",
+             .minimum = 0.0,
+             .maximum = 2.0});
+    v.field("service_brake", &Train::service_brake,
+            {.unit = "m/s^2",
+             .meaning = "deceleration by the service brake",
+             .minimum = 0.0,
+             .maximum = 5.0});
+    v.field("service_brake_build_up", &Train::service_brake_build_up,
+            {.unit = "s", .meaning = "until it acts fully", .minimum = 0.0, .maximum = 60.0});
+    v.field("emergency_brake", &Train::emergency_brake,
+            {.unit = "m/s^2",
+             .meaning = "deceleration by the emergency brake",
+             .minimum = 0.0,
+             .maximum = 5.0});
+    v.field("emergency_brake_build_up", &Train::emergency_brake_build_up,
+            {.unit = "s", .meaning = "until it acts fully", .minimum = 0.0, .maximum = 60.0});
+    v.field("couplers", &Train::couplers, {.meaning = "springs between the cars; left out: rigid"});
+    v.field("grades", &Train::grades, {.meaning = "gradients by place", .max_items = 10000});
+    v.field("schematic_curves", &Train::schematic_curves,
+            {.meaning = "curve resistance where the track is drawn straight", .max_items = 10000});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (leading_mass && !(mass > *leading_mass || (cars == 1 && mass == *leading_mass))) {
+      report("leading_mass", "must be less than the mass of the whole train");
+    }
+  }
+};
+
+/// The longitudinal motion of one train and its place on the track.
+class TrainModel {
+ public:
+  /// Along the track, per car that moves by itself: one if the couplers are rigid.
+  struct State {
+    std::vector<double> place;  // arc length of the centres, first car first [m]
+    std::vector<double> speed;  // [m/s]
+    int phase = -1;             // index of the drive phase; −1: before the first
+    double phase_began = 0.0;   // [s]
+  };
+
+  explicit TrainModel(const Train& train);
+
+  State start(const Environment& environment, double time) const;
+  void advance(State& state, const Environment& environment, double from, double to) const;
+  int objects() const { return train_.track_every_car ? train_.cars : 1; }
+  Kinematics kinematics(const State& state, const Environment& environment, double time,
+                        int object) const;
+  int bodies() const { return train_.cars; }
+  RigidBody body(const State& state, int index) const;
+  ContactProperties contact() const;
+  void adopt(State&, const RigidBody&) const {}
+
+ private:
+  struct Forces;  // on one car
+
+  double place_of(const State& state, int car) const;
+  double speed_of(const State& state, int car) const;
+  std::vector<double> accelerations(const State& state, double time) const;
+
+  Train train_;
+  Track track_;
+  std::vector<double> masses_;  // per car that moves by itself [kg]
+};
+
+}  // namespace ghtrack

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/environment.hpp"
+#include "sim/regimes/regime.hpp"
+#include "sim/truth.hpp"
+
+namespace ghtrack {
+
+struct PhysicsConfig {
+  double rate = 240.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("rate", &PhysicsConfig::rate,
+            {.unit = "Hz",
+             .meaning = "steps of the physics per second, whatever sensors and video do",
+             .minimum = 20.0,
+             .maximum = 1000.0});
+  }
+};
+
+struct WorldConfig {
+  PhysicsConfig physics;
+  EnvironmentConfig environment;
+  std::vector<Target> targets;
+};
+
+/// Gives every nameless target a name, "ball 2" for the second ball.
+/// @throws std::invalid_argument if two targets have the same name
+void name_targets(std::vector<Target>& targets);
+
+/// All targets in their surroundings: forces in, truth out.
+///
+/// Each target is integrated in double precision to fourth order, bounces on ground and walls
+/// included; Box2D decides what happens where two of them can touch. The truth of a target depends
+/// on the scene's seed, its surroundings and what it touches: not on the instants at which it is
+/// sampled, nor on targets elsewhere.
+class World {
+ public:
+  /// @throws std::invalid_argument if two targets have the same name
+  World(const WorldConfig& config, std::uint64_t seed);
+
+  /// The objects that sensors may see, in the order of their ids.
+  const std::vector<ObjectInfo>& objects() const { return objects_; }
+
+  /// The truth at a time [s] that is not before that of the previous call.
+  /// @throws std::invalid_argument if it is
+  TruthSnapshot sample(double time);
+
+ private:
+  struct Mover;
+
+  std::vector<ObjectInfo> objects_;
+};
+
+}  // namespace ghtrack
