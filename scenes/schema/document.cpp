@@ -1,0 +1,158 @@
+#include "scenes/schema/document.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <sstream>
+#include <system_error>
+
+#include "scenes/schema/source_text.hpp"
+#include "scenes/schema/tree_builder.hpp"
+
+namespace ghtrack::schema {
+namespace {
+
+/// A document that is put after the user's. If the parser reads it as the second one, the first
+/// was complete; yaml-cpp 0.7 by itself forgives unclosed quotes and forgets what follows.
+constexpr std::string_view kSentinel = "--- !__end__ x\n";
+
+class SentinelDetector : public YAML::EventHandler {
+ public:
+  explicit SentinelDetector(const SourceText& source, int line) : source_(source), line_(line) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { refuse(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuse(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    if (mark.line != line_) refuse(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    refuse(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    refuse(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  [[noreturn]] void refuse(const YAML::Mark& mark) const {
+    throw Refusal{source_.offset(mark.line, mark.column),
+                  "the document has ended already; one file holds one document"};
+  }
+
+  const SourceText& source_;
+  int line_;
+};
+
+/// yaml-cpp's words for what it could not read, at a place and with a reason that help.
+Refusal explain(const YAML::Exception& error, const SourceText& source,
+                const TreeBuilder& builder) {
+  if (const auto quote = source.unclosed_quote(builder.last_offset())) {
+    return {*quote, "the quote that opens here is not closed on its line"};
+  }
+  const std::size_t offset = source.offset(error.mark.line, error.mark.column);
+  const bool at_end = source.text().find_first_not_of(" \t\r\n", offset) == std::string_view::npos;
+  const auto bracket = builder.open_bracket();
+  if (at_end && bracket) return {*bracket, "the bracket that opens here is not closed"};
+  if (source.is_indented_with_tab(offset)) return {offset, "indent with spaces, not with tabs"};
+  return {offset, fmt::format("not a readable document: {}", error.msg)};
+}
+
+Node parse(const SourceText& source, TreeBuilder& builder) {
+  if (const auto flaw = source.flaw()) throw Refusal{flaw->offset, flaw->message};
+  std::string guarded(source.text());
+  if (!guarded.ends_with('\n')) guarded += '\n';
+  const auto sentinel_line = static_cast<int>(std::count(guarded.begin(), guarded.end(), '\n'));
+  guarded += kSentinel;
+  std::istringstream stream(guarded);
+  try {
+    YAML::Parser parser(stream);
+    SentinelDetector detector(source, sentinel_line);
+    if (!parser.HandleNextDocument(builder) || !parser.HandleNextDocument(detector)) {
+      throw Refusal{builder.last_offset(), "not a complete document"};
+    }
+  } catch (const YAML::Exception& error) {
+    throw explain(error, source, builder);
+  }
+  return builder.take_root();
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
+  throw SceneError({{.file = file.string(), .message = message}});
+}
+
+[[noreturn]] void fail_with_errno(const std::filesystem::path& file) {
+  fail(file, fmt::format("cannot be read: {}", std::generic_category().message(errno)));
+}
+
+class Descriptor {
+ public:
+  /// Without O_NONBLOCK a pipe without a writer would be waited for.
+  explicit Descriptor(const std::filesystem::path& file)
+      : descriptor_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
+
+const Node::Member* Node::find(std::string_view key) const {
+  const auto member = std::find_if(members.begin(), members.end(),
+                                   [&](const Member& candidate) { return candidate.key == key; });
+  return member == members.end() ? nullptr : &*member;
+}
+
+std::string read_document_bytes(const std::filesystem::path& file) {
+  const Descriptor descriptor(file);
+  struct stat status {};
+  if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0) fail_with_errno(file);
+  if (S_ISDIR(status.st_mode)) fail(file, "is a folder, not a file");
+  if (!S_ISREG(status.st_mode)) fail(file, "is not a regular file");
+  std::string bytes(kMaxDocumentBytes + 1, '\0');
+  std::size_t size = 0;
+  while (size < bytes.size()) {
+    const ssize_t count = ::read(descriptor.get(), bytes.data() + size, bytes.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail_with_errno(file);
+    if (count == 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  if (size > kMaxDocumentBytes) fail(file, "is longer than 1 MiB");
+  bytes.resize(size);
+  return bytes;
+}
+
+Node parse_document(std::string_view text, const std::string& name,
+                    std::vector<Diagnostic>& found) {
+  const SourceText source(text);
+  TreeBuilder builder(source, name, found);
+  try {
+    return parse(source, builder);
+  } catch (const Refusal& refusal) {
+    const Position at = source.position(refusal.offset);
+    found.push_back({name, at.line, at.column, "", refusal.message});
+  } catch (const std::ios_base::failure& error) {
+    found.push_back({name, 0, 0, "", fmt::format("cannot be read: {}", error.what())});
+  }
+  throw SceneError(found);
+}
+
+}  // namespace ghtrack::schema

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/schema/diagnostic.hpp"
+
+namespace ghtrack::schema {
+
+/// Where something stands in its file; both count from 1, columns in characters.
+struct Position {
+  int line = 0;
+  int column = 0;
+};
+
+/// One value of a configuration file: a scalar, a list or a mapping, and where it stands.
+struct Node {
+  enum class Kind {
+    kNull,    // nothing, "~" or "null"
+    kScalar,  // text that a field has yet to make sense of
+    kList,
+    kMap,
+    kRefused,  // already reported: an alias, a tag, an anchor
+  };
+  struct Member;
+
+  Kind kind = Kind::kNull;
+  bool quoted = false;  // a scalar that can be nothing but text
+  int origin = 0;       // 0: the file; 1, 2, …: that override
+  Position position = {};
+  std::string text = {};             // of a scalar
+  std::vector<Node> items = {};      // of a list
+  std::vector<Member> members = {};  // of a mapping, in the order of the file; keys are unique
+
+  const Member* find(std::string_view key) const;
+};
+
+struct Node::Member {
+  std::string key;
+  Position position;  // of the key
+  Node value;
+};
+
+/// What a strict parser accepts of YAML: one document of at most 1 MiB in UTF-8, scalars, lists and
+/// mappings with unique text keys. No anchors, aliases, tags or merge keys, nesting up to 32 deep.
+inline constexpr std::size_t kMaxDocumentBytes = std::size_t{1} << 20U;
+inline constexpr std::size_t kMaxScalarBytes = std::size_t{1} << 16U;
+inline constexpr std::size_t kMaxNodes = 200'000;
+inline constexpr std::size_t kMaxDepth = 32;
+
+/// Bytes of a regular file. Never blocks on a pipe or a device.
+/// @throws SceneError if it cannot be read or is longer than kMaxDocumentBytes
+std::string read_document_bytes(const std::filesystem::path& file);
+
+/// The document as a tree. Problems that leave the rest readable, such as a duplicate key, are
+/// added to `found`.
+/// @param name  of the file, for messages
+/// @throws SceneError if the text cannot be read as a document
+Node parse_document(std::string_view text, const std::string& name, std::vector<Diagnostic>& found);
+
+}  // namespace ghtrack::schema

@@ -1,0 +1,81 @@
+#include "scenes/schema/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace ghtrack::schema {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// "010" is 8 to some readers and 10 to others.
+bool has_leading_zero(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  return text.size() > 1 && text[0] == '0' && is_digit(text[1]);
+}
+
+}  // namespace
+
+std::string shortest(double value) {
+  std::array<char, 64> buffer{};
+  constexpr double kPlainUpTo = 1e15;
+  const bool plain = std::abs(value) < kPlainUpTo && value == std::trunc(value);
+  const auto result = plain ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                            std::chars_format::fixed)
+                            : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  std::string text(buffer.data(), result.ptr);
+  const std::size_t exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
+    text.insert(exponent, ".0");
+  }
+  return text;
+}
+
+std::errc parse_real(std::string_view text, double& value) {
+  if (has_leading_zero(text)) return std::errc::invalid_argument;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec == std::errc::invalid_argument || result.ptr != end) {
+    return std::errc::invalid_argument;
+  }
+  if (result.ec == std::errc() && !std::isfinite(value)) return std::errc::invalid_argument;
+  return result.ec;
+}
+
+bool looks_like_other_than_text(std::string_view plain) {
+  double value = 0.0;
+  return plain == "true" || plain == "false" || parse_real(plain, value) == std::errc() ||
+         has_leading_zero(plain);
+}
+
+bool is_allowed(double value, const FieldInfo& info) {
+  return value >= info.minimum && value <= info.maximum && value > info.above && value < info.below;
+}
+
+std::string unit_suffix(const FieldInfo& info) {
+  return info.unit.empty() || info.unit == "1" ? "" : fmt::format(" {}", info.unit);
+}
+
+std::string allowed_text(const FieldInfo& info) {
+  const bool from = std::isfinite(info.minimum);
+  const bool above = std::isfinite(info.above);
+  const bool to = std::isfinite(info.maximum);
+  const bool below = std::isfinite(info.below);
+  std::string text;
+  if (from && to) {
+    text = fmt::format("from {} to {}", shortest(info.minimum), shortest(info.maximum));
+  } else {
+    if (above) text = fmt::format("above {}", shortest(info.above));
+    if (from) text = fmt::format("at least {}", shortest(info.minimum));
+    if (!text.empty() && (to || below)) text += " and ";
+    if (to) text += fmt::format("at most {}", shortest(info.maximum));
+    if (below) text += fmt::format("below {}", shortest(info.below));
+  }
+  return text.empty() ? text : text + unit_suffix(info);
+}
+
+}  // namespace ghtrack::schema

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "scenes/schema/compare_config.hpp"
+#include "scenes/schema/names.hpp"
+#include "scenes/schema/series.hpp"
+#include "scenes/schema/video_config.hpp"
+#include "sensors/sensor.hpp"
+#include "sim/environment.hpp"
+#include "sim/regimes/regime.hpp"
+#include "sim/world.hpp"
+#include "tracker/tracker_config.hpp"
+
+namespace ghtrack {
+
+/// A simulated world, the sensors that look at it, and the tracker that sees what they report.
+struct WorldScene {
+  static constexpr std::string_view kind = "world";
+  static constexpr std::string_view about =
+      "a simulated world, the sensors that look at it and the tracker that sees what they report";
+
+  std::string name;
+  std::uint64_t seed = 1;
+  double duration = 20.0;  // [s]
+  PhysicsConfig physics;
+  EnvironmentConfig environment;
+  std::vector<Target> targets;
+  std::vector<SensorConfig> sensors;
+  TrackerConfig tracker;
+  std::optional<VideoConfig> video;
+  CompareConfig compare;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("name", &WorldScene::name,
+            {.meaning = "names the folder of the results", .required = true});
+    v.field("seed", &WorldScene::seed, {.meaning = "chooses every random number of the run"});
+    v.field("duration", &WorldScene::duration,
+            {.unit = "s", .meaning = "length of the run", .maximum = 1e6, .above = 0.0});
+    v.field("physics", &WorldScene::physics, {.meaning = "how the world is computed"});
+    v.field("world", &WorldScene::environment, {.meaning = "gravity, air, wind and ground"});
+    v.field("targets", &WorldScene::targets,
+            {.meaning = "what moves", .required = true, .min_items = 1, .max_items = 10'000});
+    v.field("sensors", &WorldScene::sensors,
+            {.meaning = "what looks", .required = true, .min_items = 1, .max_items = 64});
+    v.field("tracker", &WorldScene::tracker, {.meaning = "what turns detections into tracks"});
+    v.field("video", &WorldScene::video, {.meaning = "the video; without it none is made"});
+    v.field("compare", &WorldScene::compare, {.meaning = "for `ghtrack compare`"});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (const auto flaw = flaw_of_name(name); !flaw.empty()) report("name", flaw);
+    report_repeated_names(targets, "targets", report);
+    report_repeated_names(sensors, "sensors", report);
+    if (!video) return;
+    if (video->from >= duration) report("video.from", "must be before the end of the run");
+    const auto check_target = [&](std::string_view key, const std::optional<std::string>& wanted) {
+      if (wanted && !has_target(*wanted)) report(key, "no target is called '" + *wanted + "'");
+    };
+    check_target("video.follow", video->follow);
+    check_target("video.close_up", video->close_up);
+  }
+
+  bool has_target(std::string_view target) const {
+    for (const Target& candidate : targets) {
+      if (candidate.name == target) return true;
+    }
+    return false;
+  }
+};
+
+/// What a scene file may hold; its key `kind` says which, a world by default.
+using Scene = std::variant<WorldScene, SeriesScene>;
+
+}  // namespace ghtrack

@@ -1,0 +1,240 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "scenes/schema/names.hpp"
+
+namespace ghtrack {
+
+/// How an acceleration enters the truth of a generated series, n steps of length dt after the
+/// start. The three agree where the acceleration is zero.
+enum class Motion {
+  kParabola,         // start + rate n dt + a (n dt)² / 2
+  kStepwise,         // position first, then rate: start + rate n dt + a dt² n (n − 1) / 2
+  kIntegratedTwice,  // the parabola with a rate that grows as well: start + rate n dt + 3a (n
+                     // dt)²/2
+};
+
+constexpr std::array<std::pair<std::string_view, Motion>, 3> enum_names(Motion) {
+  return {{{"parabola", Motion::kParabola},
+           {"stepwise", Motion::kStepwise},
+           {"integrated-twice", Motion::kIntegratedTwice}}};
+}
+
+/// Measurements made up from a law of motion and Gaussian noise.
+struct GeneratedSeries {
+  static constexpr std::string_view kind = "generate";
+  static constexpr std::string_view about = "measurements made up from a law of motion and noise";
+
+  int points = 100;
+  int first = 0;  // number of steps between the start and the first measurement
+  double start = 0.0;
+  double rate = 0.0;
+  double acceleration = 0.0;
+  Motion motion = Motion::kParabola;
+  double noise = 0.0;  // 1 sigma
+
+  /// The truth at a point 0, 1, …
+  /// @param dt  time between points
+  double truth(int point, double dt) const {
+    const double n = static_cast<double>(first) + static_cast<double>(point);
+    const double t = n * dt;
+    const double line = start + rate * t;
+    switch (motion) {
+      case Motion::kParabola:
+        return line + 0.5 * acceleration * t * t;
+      case Motion::kStepwise:
+        return line + 0.5 * acceleration * dt * dt * n * (n - 1.0);
+      case Motion::kIntegratedTwice:
+        return line + 1.5 * acceleration * t * t;
+    }
+    return line;
+  }
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("points", &GeneratedSeries::points,
+            {.unit = "1", .meaning = "number of measurements", .minimum = 1, .maximum = 1'000'000});
+    v.field("first", &GeneratedSeries::first,
+            {.unit = "1",
+             .meaning = "steps between the start and the first measurement",
+             .minimum = 0,
+             .maximum = 1'000'000});
+    v.field("start", &GeneratedSeries::start, {.meaning = "true value at step 0"});
+    v.field("rate", &GeneratedSeries::rate, {.meaning = "true change per unit of time at step 0"});
+    v.field("acceleration", &GeneratedSeries::acceleration,
+            {.meaning = "change of the rate per unit of time"});
+    v.field("motion", &GeneratedSeries::motion,
+            {.meaning = "how the acceleration enters: parabola adds a t²/2; stepwise moves first "
+                        "and then changes the rate; integrated-twice adds 3 a t²/2, as a generator "
+                        "does that integrates the acceleration twice"});
+    v.field("noise", &GeneratedSeries::noise,
+            {.meaning = "1-sigma error of a measurement", .minimum = 0.0});
+  }
+};
+
+/// Measurements that are written out.
+struct GivenSeries {
+  static constexpr std::string_view kind = "given";
+  static constexpr std::string_view about = "measurements that are written out";
+
+  std::vector<double> measurements;
+  std::vector<double> truth;  // as many, or none if the truth is unknown
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("measurements", &GivenSeries::measurements,
+            {.meaning = "the measurements in order", .required = true, .min_items = 1});
+    v.field("truth", &GivenSeries::truth,
+            {.meaning = "the true values, as many; without them no errors are computed"});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (!truth.empty() && truth.size() != measurements.size()) {
+      report("truth", "must have as many values as there are measurements: " +
+                          std::to_string(measurements.size()) + ", found " +
+                          std::to_string(truth.size()));
+    }
+  }
+};
+
+using SeriesData = std::variant<GeneratedSeries, GivenSeries>;
+
+/// When does the initial guess hold?
+enum class GuessAt {
+  kStepBefore,        // one step before the first measurement, which is predicted and used
+  kFirstMeasurement,  // at the first measurement, which is not used; filtering starts at the second
+};
+
+constexpr std::array<std::pair<std::string_view, GuessAt>, 2> enum_names(GuessAt) {
+  return {
+      {{"step-before", GuessAt::kStepBefore}, {"first-measurement", GuessAt::kFirstMeasurement}}};
+}
+
+/// Constant gains of order 1: x += g r, dx += h r / dt.
+struct SeriesGh {
+  static constexpr std::string_view kind = "gh";
+  static constexpr std::string_view about = "position and rate; x += g r, dx += h r / dt";
+  double g = 0.2;
+  double h = 0.02;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("g", &SeriesGh::g, {.unit = "1", .meaning = "share of the residual in the position"});
+    v.field("h", &SeriesGh::h, {.unit = "1", .meaning = "share of the residual in the rate"});
+  }
+};
+
+/// Constant gains of order 2: ddx += 2 k r / dt² (FilterPy's and Brookner's form).
+struct SeriesGhk {
+  static constexpr std::string_view kind = "ghk";
+  static constexpr std::string_view about =
+      "position, rate and acceleration; ddx += 2 k r / dt² as in FilterPy and Brookner";
+  double ddx0 = 0.0;
+  double g = 0.2;
+  double h = 0.02;
+  double k = 0.001;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("ddx0", &SeriesGhk::ddx0, {.meaning = "initial guess of the acceleration"});
+    v.field("g", &SeriesGhk::g, {.unit = "1", .meaning = "share of the residual in the position"});
+    v.field("h", &SeriesGhk::h, {.unit = "1", .meaning = "share of the residual in the rate"});
+    v.field("k", &SeriesGhk::k,
+            {.unit = "1",
+             .meaning = "share of the residual in the acceleration; 0 keeps it at "
+                        "ddx0, as a known acceleration in the prediction"});
+  }
+};
+
+using SeriesModel = std::variant<SeriesGh, SeriesGhk>;  // add yours here
+
+/// One filter of a series and its initial guess. Any finite gains are accepted: exploring bad ones
+/// is the point.
+struct SeriesFilter {
+  static constexpr std::string_view about = "one filter and its initial guess";
+
+  std::string name;
+  double x0 = 0.0;
+  double dx0 = 0.0;
+  std::optional<double> dt;  // the filter's idea of the time step; absent: the data's [s]
+  SeriesModel model;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("name", &SeriesFilter::name, {.meaning = "unique", .required = true});
+    v.field("x0", &SeriesFilter::x0, {.meaning = "initial guess of the position"});
+    v.field("dx0", &SeriesFilter::dx0, {.meaning = "initial guess of the rate"});
+    v.field("dt", &SeriesFilter::dt,
+            {.unit = "s",
+             .meaning = "the filter's idea of the time step; without it the data's",
+             .minimum = 1e-9,
+             .maximum = 1e9});
+    v.tagged("filter", &SeriesFilter::model, {.meaning = "the family, as in `ghtrack filter`"});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (name.empty()) report("name", "must not be empty");
+  }
+};
+
+/// Labels of the axes of the plot.
+struct PlotConfig {
+  static constexpr std::string_view about = "labels of the plot";
+  std::string x_label = "t [s]";
+  std::string y_label = "x";
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("x_label", &PlotConfig::x_label, {.meaning = "label of the horizontal axis"});
+    v.field("y_label", &PlotConfig::y_label, {.meaning = "label of the vertical axis"});
+  }
+};
+
+/// One-dimensional data and the filters that try themselves on it: the textbook's experiments.
+struct SeriesScene {
+  static constexpr std::string_view kind = "series";
+  static constexpr std::string_view about =
+      "one-dimensional measurements and the filters that are tried on them";
+
+  std::string name;
+  std::uint64_t seed = 1;
+  double dt = 1.0;  // between measurements [s]
+  SeriesData data;
+  GuessAt initial_guess = GuessAt::kStepBefore;
+  std::vector<SeriesFilter> filters;
+  PlotConfig plot;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("name", &SeriesScene::name,
+            {.meaning = "names the folder of the results", .required = true});
+    v.field("seed", &SeriesScene::seed, {.meaning = "chooses the noise"});
+    v.field("dt", &SeriesScene::dt,
+            {.unit = "s", .meaning = "time between measurements", .minimum = 1e-9, .maximum = 1e9});
+    v.one_of(&SeriesScene::data, {.meaning = "where the measurements come from"});
+    v.field("initial_guess", &SeriesScene::initial_guess,
+            {.meaning = "when the guess holds: one step before the first measurement, or at the "
+                        "first measurement, which is then not used"});
+    v.field("filters", &SeriesScene::filters,
+            {.meaning = "the filters to try", .required = true, .min_items = 1, .max_items = 64});
+    v.field("plot", &SeriesScene::plot, {.meaning = "the plot"});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (const auto flaw = flaw_of_name(name); !flaw.empty()) report("name", flaw);
+    report_repeated_names(filters, "filters", report);
+  }
+};
+
+}  // namespace ghtrack

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "scenes/schema/field.hpp"
+
+namespace ghtrack::schema {
+
+/// What describe() says of a C++ type, at run time. One walk over it reads a file, another writes
+/// the resolved scene, others the JSON Schema and the reference: none of them is a template.
+/// Values are reached as void* to an object of the described type. describe.hpp makes these.
+struct Type;
+using TypeRef = const Type& (*)();  // a function, so that types may contain themselves
+
+struct RealType {};     // double
+struct BooleanType {};  // bool
+struct TextType {};     // std::string
+
+struct IntegerType {
+  std::string range;  // "from 0 to 255": what the C++ type can hold
+  std::errc (*parse)(std::string_view text, void* value);
+  std::string (*print)(const void* value);
+  double (*approximate)(const void* value);
+};
+
+struct EnumType {
+  std::vector<std::string_view> names;
+  std::size_t (*index)(const void* value);
+  void (*assign)(void* value, std::size_t index);
+};
+
+struct ListType {
+  TypeRef item;
+  std::size_t fixed_size = 0;  // of a vector of the plane; 0: any number of items
+  std::size_t (*size)(const void* list);
+  void (*resize)(void* list, std::size_t size);  // to fresh items
+  void* (*at)(void* list, std::size_t index);
+};
+
+struct MapType {
+  TypeRef item;
+  void (*clear)(void* map);
+  void* (*insert)(void* map, const std::string& key);
+  std::vector<std::pair<std::string_view, const void*>> (*entries)(const void* map);
+};
+
+struct OptionalType {
+  TypeRef item;
+  void* (*get)(void* optional);  // null if there is none
+  void* (*emplace)(void* optional);
+};
+
+struct VariantType {
+  struct Alternative {
+    std::string_view kind;
+    TypeRef type;
+  };
+  std::vector<Alternative> alternatives;
+  std::size_t (*index)(const void* variant);
+  void* (*get)(void* variant);
+  void* (*emplace)(void* variant, std::size_t index);
+};
+
+struct FieldType {
+  enum class Role { kField, kOneOf, kTagged, kPreset, kScalar };
+  Role role = Role::kField;
+  std::string_view key;  // of a field, a tag or a preset
+  FieldInfo info;
+  TypeRef type = nullptr;
+  std::function<void*(void* object)> member;
+};
+
+using Report = std::function<void(std::string_view key, std::string_view message)>;
+
+struct StructType {
+  std::string_view about;
+  std::vector<FieldType> fields;
+  std::vector<std::pair<std::string, std::shared_ptr<void>>> presets;  // by name
+  void (*copy)(void* object, const void* other) = nullptr;
+  void (*check)(const void* object, const Report& report) = nullptr;  // null if there is none
+
+  const FieldType* find(FieldType::Role role) const {
+    for (const FieldType& field : fields) {
+      if (field.role == role) return &field;
+    }
+    return nullptr;
+  }
+};
+
+struct Type {
+  std::variant<RealType, IntegerType, BooleanType, TextType, EnumType, ListType, MapType,
+               OptionalType, VariantType, StructType>
+      shape;
+  std::shared_ptr<void> (*make)();  // a value-initialised object
+};
+
+}  // namespace ghtrack::schema
