@@ -36,12 +36,11 @@ struct PositionSensor {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("noise", &PositionSensor::noise,
-            {.unit = "m", .meaning = "1-sigma error per axis", .maximum = 1e6, .above = 0.0});
+            {.unit = "m", .meaning = "1-sigma error per axis", .above = 0.0, .maximum = 1e6});
     v.field("noise_y", &PositionSensor::noise_y,
             {.unit = "m",
              .meaning = "1-sigma error along y if it differs",
-             .maximum = 1e6,
-             .above = 0.0});
+             .above = 0.0, .maximum = 1e6});
     v.field("bias", &PositionSensor::bias,
             {.unit = "m",
              .meaning = "constant error added to every position",

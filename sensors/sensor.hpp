@@ -30,7 +30,7 @@ struct SensorConfig {
     v.field("name", &SensorConfig::name,
             {.meaning = "unique; its noise depends on it; by default sensor 1, sensor 2, …"});
     v.field("rate", &SensorConfig::rate,
-            {.unit = "Hz", .meaning = "scans per second", .maximum = 1e4, .above = 0.0});
+            {.unit = "Hz", .meaning = "scans per second", .above = 0.0, .maximum = 1e4});
     v.field("phase", &SensorConfig::phase,
             {.unit = "s", .meaning = "time of the first scan", .minimum = 0.0, .maximum = 1e6});
     v.field("detection_probability", &SensorConfig::detection_probability,

@@ -14,8 +14,8 @@ struct FieldInfo {
   std::string_view meaning = "";  // one line, lower case, no full stop
   bool required = false;          // without a default: the key must be there
   double minimum = -std::numeric_limits<double>::infinity();  // value ≥ minimum
-  double maximum = std::numeric_limits<double>::infinity();   // value ≤ maximum
   double above = -std::numeric_limits<double>::infinity();    // value > above
+  double maximum = std::numeric_limits<double>::infinity();   // value ≤ maximum
   double below = std::numeric_limits<double>::infinity();     // value < below
   std::size_t min_items = 0;
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
