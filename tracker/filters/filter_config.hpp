@@ -1,0 +1,193 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+#include "tracker/filters/gain_schedule.hpp"
+#include "tracker/filters/gains/design.hpp"
+
+namespace ghtrack {
+
+/// A filter with designed gains as a scene says it: {gh: {design: benedict-bordner, g: 0.8}}.
+/// @tparam Order  the highest derivative that the filter carries
+template <int Order>
+struct GainFilterConfig {
+  static constexpr std::string_view kind = Order == 0 ? "order0" : Order == 1 ? "gh" : "ghk";
+  static constexpr std::string_view about =
+      Order == 0   ? "Smooths the position; assumes a target at rest."
+      : Order == 1 ? "Position and velocity with given gains; lags behind an accelerating target."
+                   : "Position, velocity and acceleration with given gains.";
+
+  typename gain_design::Rules<Order>::Any design = {};
+  StartUp start_up = StartUp::kGrowingMemory;
+  std::optional<IrregularTime> irregular_time = {};
+  std::optional<double> allowed_acceleration = {};
+  double initial_speed = 30.0;
+  double initial_acceleration = 20.0;
+  std::optional<double> huber = {};
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.tagged("design", &GainFilterConfig::design, {.meaning = "the rule that gives the gains"});
+    if constexpr (Order >= 1) {
+      v.field(
+          "start_up", &GainFilterConfig::start_up,
+          {.meaning = "gains of the first updates: least squares, the first two points, or none"});
+    }
+    v.field(
+        "irregular_time", &GainFilterConfig::irregular_time,
+        {.meaning = "how gains follow uneven times and misses; by default gains-from-elapsed where "
+                    "the design has a time scale, else fixed-gains"});
+    v.field("allowed_acceleration", &GainFilterConfig::allowed_acceleration,
+            {.unit = "m/s²",
+             .meaning = "1-sigma acceleration that the predicted error and the gate allow for; by "
+                        "default the process noise of a tracking-index design, else 0",
+             .minimum = 0.0});
+    if constexpr (Order >= 1) {
+      v.field("initial_speed", &GainFilterConfig::initial_speed,
+              {.unit = "m/s",
+               .meaning = "1-sigma velocity per axis of a target seen once, for the gate",
+               .above = 0.0});
+    }
+    if constexpr (Order >= 2) {
+      v.field("initial_acceleration", &GainFilterConfig::initial_acceleration,
+              {.unit = "m/s²",
+               .meaning = "1-sigma acceleration per axis of a target seen twice, for the gate",
+               .above = 0.0});
+    }
+    v.field(
+        "huber", &GainFilterConfig::huber,
+        {.unit = "1",
+         .meaning = "residuals longer than this many sigmas are shortened to it; 1.345 is usual",
+         .above = 0.0});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (!irregular_time || *irregular_time == IrregularTime::kFixedGains || has_time_scale())
+      return;
+    report("irregular_time",
+           "gains can follow the time only for the designs tracking-index, fading-memory and "
+           "critical-damping; use fixed-gains");
+  }
+
+  /// Whether the design says what its gains would be at another interval.
+  bool has_time_scale() const {
+    return std::visit(
+        [](const auto& rule) {
+          using Rule = std::decay_t<decltype(rule)>;
+          return requires { rule.theta; }
+          || std::is_same_v<Rule, gain_design::TrackingIndex<Order>>;
+        },
+        design);
+  }
+};
+
+using Order0Config = GainFilterConfig<0>;
+using GhConfig = GainFilterConfig<1>;
+using GhkConfig = GainFilterConfig<2>;
+
+namespace process {
+
+/// The uncertainty of motion as a scene says it: {kalman-cv: {model: white-noise,
+/// spectral_density: 0.05}}.
+struct PiecewiseConstant {
+  static constexpr std::string_view kind = "piecewise-constant";
+  static constexpr std::string_view about =
+      "A new random acceleration at every scan; for constant acceleration a new random change of "
+      "it.";
+  static constexpr ProcessModel model = ProcessModel::kPiecewiseConstant;
+  double process_noise = 10.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("process_noise", &PiecewiseConstant::process_noise,
+            {.unit = "m/s²", .meaning = "1-sigma acceleration or change of it", .minimum = 0.0});
+  }
+  double intensity() const { return process_noise; }
+};
+
+struct RandomWalk {
+  static constexpr std::string_view kind = "random-walk";
+  static constexpr std::string_view about =
+      "The highest derivative jumps at every scan, the position does not.";
+  static constexpr ProcessModel model = ProcessModel::kRandomWalk;
+  double process_noise = 10.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("process_noise", &RandomWalk::process_noise,
+            {.unit = "m/s²",
+             .meaning = "1-sigma jump of the velocity per second of a step, or of the acceleration",
+             .minimum = 0.0});
+  }
+  double intensity() const { return process_noise; }
+};
+
+template <int Order>
+struct WhiteNoise {
+  static constexpr std::string_view kind = "white-noise";
+  static constexpr std::string_view about =
+      "Continuous white noise in the acceleration, or in its derivative; the same whatever the "
+      "scan "
+      "rate.";
+  static constexpr ProcessModel model = ProcessModel::kWhiteNoise;
+  double spectral_density = 1.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field(
+        "spectral_density", &WhiteNoise::spectral_density,
+        {.unit = Order == 1 ? "m²/s³" : "m²/s⁵", .meaning = "power of the noise", .minimum = 0.0});
+  }
+  double intensity() const { return spectral_density; }
+};
+
+}  // namespace process
+
+/// A Kalman filter as a scene says it. @tparam Order  1: constant velocity, 2: acceleration
+template <int Order>
+struct KalmanConfig {
+  static constexpr std::string_view kind = Order == 1 ? "kalman-cv" : "kalman-ca";
+  static constexpr std::string_view about =
+      Order == 1 ? "Kalman filter that assumes a nearly constant velocity."
+                 : "Kalman filter that assumes a nearly constant acceleration.";
+
+  std::variant<process::PiecewiseConstant, process::RandomWalk, process::WhiteNoise<Order>> model =
+      {};
+  double initial_speed = 30.0;
+  double initial_acceleration = 20.0;
+  std::optional<double> huber = {};
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.tagged("model", &KalmanConfig::model,
+             {.meaning = "how the motion departs from the assumed one"});
+    v.field("initial_speed", &KalmanConfig::initial_speed,
+            {.unit = "m/s",
+             .meaning = "1-sigma velocity per axis of a target seen once",
+             .above = 0.0});
+    if constexpr (Order == 2) {
+      v.field("initial_acceleration", &KalmanConfig::initial_acceleration,
+              {.unit = "m/s²",
+               .meaning = "1-sigma acceleration per axis of a target seen once",
+               .above = 0.0});
+    }
+    v.field(
+        "huber", &KalmanConfig::huber,
+        {.unit = "1",
+         .meaning = "residuals longer than this many sigmas pull no harder than it; 1.345 is usual",
+         .above = 0.0});
+  }
+};
+
+using KalmanCvConfig = KalmanConfig<1>;
+using KalmanCaConfig = KalmanConfig<2>;
+
+/// What a scene may ask for. Add yours here, and its filter to Filter.
+using FilterConfig =
+    std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig, KalmanCaConfig>;
+
+}  // namespace ghtrack

@@ -1,0 +1,188 @@
+#include "tracker/filters/kalman_filter.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "tracker/filters/gain_filter.hpp"
+
+namespace ghtrack {
+namespace {
+
+/// P ← F P Fᵀ for motion under constant velocity or acceleration.
+template <int Order, int D, class Covariance>
+void extrapolate(Covariance& p, double dt) {
+  p.template middleRows<D>(0) += dt * p.template middleRows<D>(D);
+  if constexpr (Order == 2) {
+    p.template middleRows<D>(0) += (0.5 * dt * dt) * p.template middleRows<D>(2 * D);
+    p.template middleRows<D>(D) += dt * p.template middleRows<D>(2 * D);
+  }
+  p.template middleCols<D>(0) += dt * p.template middleCols<D>(D);
+  if constexpr (Order == 2) {
+    p.template middleCols<D>(0) += (0.5 * dt * dt) * p.template middleCols<D>(2 * D);
+    p.template middleCols<D>(D) += dt * p.template middleCols<D>(2 * D);
+  }
+}
+
+template <int Order, int D, class Covariance>
+void add_on_each_axis(Covariance& p, const AxisCovariance<double>& q) {
+  for (int i = 0; i < D; ++i) {
+    const int v = i + D;
+    p(i, i) += q.xx;
+    p(i, v) += q.xv;
+    p(v, i) += q.xv;
+    p(v, v) += q.vv;
+    if constexpr (Order == 2) {
+      const int a = v + D;
+      p(i, a) += q.xa;
+      p(a, i) += q.xa;
+      p(v, a) += q.va;
+      p(a, v) += q.va;
+      p(a, a) += q.aa;
+    }
+  }
+}
+
+template <class Matrix>
+bool is_covariance(const Matrix& r) {
+  return r.allFinite() && (r.diagonal().array() >= 0.0).all();
+}
+
+}  // namespace
+
+template <int Order, int D>
+KalmanFilter<Order, D>::KalmanFilter(const KalmanModel& model)
+    : model_(model),
+      steady_(steady_kalman_gains(model.process_model, Order, model.process_intensity, model.sigma,
+                                  model.interval)) {}
+
+template <int Order, int D>
+KalmanFilter<Order, D>::KalmanFilter(const KalmanModel& model, const Kinematics<D>& guess,
+                                     const Covariance& covariance)
+    : KalmanFilter(model) {
+  prior_ = estimate_ = guess;
+  covariance_ = covariance;
+  started_ = true;
+}
+
+template <int Order, int D>
+std::string KalmanFilter<Order, D>::gains_text() const {
+  return to_text(steady_);
+}
+
+template <int Order, int D>
+bool KalmanFilter<Order, D>::start(const Vector& z, const Matrix& covariance) {
+  if (!z.allFinite() || !is_covariance(covariance)) return refuse_measurement();
+  prior_ = estimate_ = Kinematics<D>{.position = z};
+  covariance_.setZero();
+  covariance_.template topLeftCorner<D, D>() = covariance;
+  covariance_.diagonal().template segment<D>(D).setConstant(model_.initial_speed *
+                                                            model_.initial_speed);
+  if constexpr (Order == 2) {
+    covariance_.diagonal().template tail<D>().setConstant(model_.initial_acceleration *
+                                                          model_.initial_acceleration);
+  }
+  residual_.reset();
+  updates_ = 1;
+  misses_ = 0;
+  started_ = true;
+  return true;
+}
+
+template <int Order, int D>
+bool KalmanFilter<Order, D>::predict(double dt) {
+  const Kinematics<D> next = extrapolated(estimate_, dt);
+  Covariance p = covariance_;
+  extrapolate<Order, D>(p, dt);
+  add_on_each_axis<Order, D>(
+      p, process_noise(model_.process_model, Order, model_.process_intensity, dt));
+  if (!(dt > 0.0) || !std::isfinite(dt) || !next.is_finite() || !p.allFinite()) {
+    ++refusals_.times;
+    return false;
+  }
+  if (!started_) return true;
+  prior_ = estimate_ = next;
+  covariance_ = p;
+  residual_.reset();
+  return true;
+}
+
+template <int Order, int D>
+bool KalmanFilter<Order, D>::update(const Vector& z, const Matrix& covariance) {
+  if (!started_) return start(z, covariance);
+  if (!z.allFinite() || !is_covariance(covariance)) return refuse_measurement();
+
+  const Vector residual = z - estimate_.position;
+  const Matrix predicted = covariance_.template topLeftCorner<D, D>();
+  const Matrix s = predicted + covariance;
+  const double determinant = s.determinant();
+  if (!(determinant > 0.0) || !std::isfinite(determinant)) return refuse_measurement();
+  const Matrix inverse = s.inverse();
+  const double nis = residual.dot(inverse * residual);
+
+  // A residual beyond the limit speaks of an outlier: its error is taken to be larger, so that its
+  // pull does not grow any further (Huber 1964).
+  const double distance = std::sqrt(nis);
+  const bool doubted = distance > model_.huber;
+  const Matrix r = doubted ? Matrix(covariance * (distance / model_.huber)) : covariance;
+  const Matrix gain_inverse = doubted ? Matrix(Matrix(predicted + r).inverse()) : inverse;
+  const Eigen::Matrix<double, kStates, D> gain = covariance_.template leftCols<D>() * gain_inverse;
+
+  const Eigen::Matrix<double, kStates, 1> change = gain * residual;
+  Kinematics<D> next = estimate_;
+  next.position += change.template head<D>();
+  next.velocity += change.template segment<D>(D);
+  if constexpr (Order == 2) next.acceleration += change.template tail<D>();
+
+  Covariance keep = Covariance::Identity();
+  keep.template leftCols<D>() -= gain;
+  Covariance p = keep * covariance_ * keep.transpose() + gain * r * gain.transpose();
+  p = 0.5 * (p + p.transpose()).eval();
+  if (!std::isfinite(nis) || !next.is_finite() || !p.allFinite()) return refuse_measurement();
+
+  prior_ = estimate_;
+  estimate_ = next;
+  covariance_ = p;
+  residual_ = residual;
+  nis_ = nis;
+  log_likelihood_ = -0.5 * (nis + std::log(determinant) + D * std::log(2.0 * std::numbers::pi));
+  misses_ = 0;
+  ++updates_;
+  return true;
+}
+
+template <int Order, int D>
+void KalmanFilter<Order, D>::coast() {
+  residual_.reset();
+  ++misses_;
+}
+
+template <int Order, int D>
+auto KalmanFilter<Order, D>::position_sigma() const -> Vector {
+  return covariance_.diagonal().template head<D>().cwiseMax(0.0).cwiseSqrt();
+}
+
+template <int Order, int D>
+auto KalmanFilter<Order, D>::velocity_sigma() const -> Vector {
+  return covariance_.diagonal().template segment<D>(D).cwiseMax(0.0).cwiseSqrt();
+}
+
+template <int Order, int D>
+auto KalmanFilter<Order, D>::innovation_covariance(const Matrix& measurement) const -> Matrix {
+  return measurement + covariance_.template topLeftCorner<D, D>();
+}
+
+template <int Order, int D>
+bool KalmanFilter<Order, D>::refuse_measurement() {
+  ++refusals_.measurements;
+  return false;
+}
+
+template class KalmanFilter<1, 1>;
+template class KalmanFilter<1, 2>;
+template class KalmanFilter<1, 3>;
+template class KalmanFilter<2, 1>;
+template class KalmanFilter<2, 2>;
+template class KalmanFilter<2, 3>;
+
+}  // namespace ghtrack
