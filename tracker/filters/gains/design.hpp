@@ -82,8 +82,8 @@ struct BenedictBordner {
             {.unit = "1",
              .meaning = "share of the residual given to the position",
              .required = true,
-             .maximum = 1.0,
-             .above = 0.0});
+             .above = 0.0,
+             .maximum = 1.0});
   }
   Gains gains(double /*sigma*/, double /*dt*/) const {
     return Order == 1 ? benedict_bordner_gains(g) : third_order_benedict_bordner_gains(g);
@@ -149,8 +149,8 @@ struct TrackingIndex {
     v.field("index", &TrackingIndex::index,
             {.unit = "1",
              .meaning = "process noise · T² / measurement noise, instead of process_noise",
-             .maximum = 1e6,
-             .above = 0.0});
+             .above = 0.0,
+             .maximum = 1e6});
     if constexpr (Order == 1) {
       v.field(
           "model", &TrackingIndex::model,
