@@ -1,0 +1,47 @@
+#include "tools/metrics/identity.hpp"
+
+#include <algorithm>
+
+#include "tools/metrics/best_pairs.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kThreshold = 0.5;
+
+double ratio(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+}  // namespace
+
+void Identity::add(const MotStep& step) {
+  truth_scans_ += std::ssize(step.truth);
+  track_scans_ += std::ssize(step.tracks);
+  for (const Pair& pair : step.pairs) {
+    if (pair.value >= kThreshold) ++agreement_.at(step.truth[pair.truth], step.tracks[pair.track]);
+  }
+}
+
+IdentityResult Identity::result() const {
+  std::vector<Pair> pairs;
+  int truths = 0;
+  int tracks = 0;
+  agreement_.each([&](int truth, int track, std::int64_t scans) {
+    pairs.push_back({truth, track, static_cast<double>(scans)});
+    truths = std::max(truths, truth + 1);
+    tracks = std::max(tracks, track + 1);
+  });
+  IdentityResult result;
+  for (const std::size_t i : most_valuable_pairs(pairs, truths, tracks)) {
+    result.true_positives += static_cast<std::int64_t>(pairs[i].value);
+  }
+  result.false_positives = track_scans_ - result.true_positives;
+  result.false_negatives = truth_scans_ - result.true_positives;
+  result.idf1 = ratio(2 * result.true_positives, truth_scans_ + track_scans_);
+  result.idp = ratio(result.true_positives, track_scans_);
+  result.idr = ratio(result.true_positives, truth_scans_);
+  return result;
+}
+
+}  // namespace ghtrack

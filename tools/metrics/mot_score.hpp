@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "tools/metrics/clear_mot.hpp"
+#include "tools/metrics/close_pairs.hpp"
+#include "tools/metrics/hota.hpp"
+#include "tools/metrics/identity.hpp"
+
+namespace ghtrack {
+
+struct MotResult {
+  ClearMotResult clear;
+  IdentityResult identity;
+  HotaResult hota;
+};
+
+/// All scores of identity over a run: CLEAR MOT, IDF1 and HOTA.
+class MotScore {
+ public:
+  using Id = std::int64_t;
+
+  /// Adds an instant of points. Their similarity is max(0, 1 − d / (2 D)), which is 0.5 at the
+  /// match distance D, as in TrackEval.
+  void add_points(std::span<const Id> truth_ids, std::span<const Eigen::Vector2d> truth,
+                  std::span<const Id> track_ids, std::span<const Eigen::Vector2d> tracks,
+                  double match_distance);
+
+  /// Adds an instant of boxes. Their similarity is intersection over union.
+  void add_boxes(std::span<const Id> truth_ids, std::span<const Box> truth,
+                 std::span<const Id> track_ids, std::span<const Box> tracks);
+
+  MotResult result() const;
+
+ private:
+  /// Numbers identities 0, 1, … in the order of their first appearance.
+  class Numbers {
+   public:
+    const std::vector<int>& of(std::span<const Id> ids);
+
+   private:
+    std::unordered_map<Id, int> number_of_;
+    std::vector<int> numbers_;  // working space
+  };
+
+  void add(std::span<const Id> truth_ids, std::span<const Id> track_ids,
+           std::span<const Pair> pairs);
+
+  Numbers truth_, tracks_;
+  ClearMot clear_;
+  Identity identity_;
+  Hota hota_;
+};
+
+}  // namespace ghtrack

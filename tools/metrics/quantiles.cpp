@@ -1,0 +1,103 @@
+#include "tools/metrics/quantiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace ghtrack {
+namespace {
+
+constexpr double kEnough = 1e-15;  // relative size of a term that ends a sum
+
+/// P(a, x), the regularised lower incomplete gamma function.
+double incomplete_gamma(double a, double x) {
+  if (x <= 0.0) return 0.0;
+  const double scale = std::exp(a * std::log(x) - x - std::lgamma(a));
+  if (x < a + 1.0) {
+    double term = 1.0 / a;
+    double sum = term;
+    for (double n = a + 1.0; term > kEnough * sum; n += 1.0) {
+      term *= x / n;
+      sum += term;
+    }
+    return scale * sum;
+  }
+  // The continued fraction of Q = 1 − P by Lentz's method.
+  double b = x + 1.0 - a;
+  double c = std::numeric_limits<double>::max();
+  double d = 1.0 / b;
+  double fraction = d;
+  for (double n = 1.0, change = 0.0; std::abs(change - 1.0) > kEnough && n < 1e6; n += 1.0) {
+    const double numerator = -n * (n - a);
+    b += 2.0;
+    d = 1.0 / (numerator * d + b);
+    c = b + numerator / c;
+    change = c * d;
+    fraction *= change;
+  }
+  return 1.0 - scale * fraction;
+}
+
+/// By bisection of the error function.
+double normal_quantile(double probability) {
+  double low = -40.0;
+  double high = 40.0;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// P(|T| < t) for Student's t with a whole number of degrees of freedom.
+double student_central(double t, std::int64_t degrees) {
+  const double theta = std::atan(t / std::sqrt(static_cast<double>(degrees)));
+  const double cos2 = std::cos(theta) * std::cos(theta);
+  const bool odd = degrees % 2 == 1;
+  double term = odd ? std::cos(theta) : 1.0;
+  double sum = degrees == 1 ? 0.0 : term;
+  for (std::int64_t n = odd ? 3 : 2; n < degrees - 1; n += 2) {
+    term *= cos2 * static_cast<double>(n - 1) / static_cast<double>(n);
+    sum += term;
+  }
+  if (odd) return 2.0 / std::numbers::pi * (theta + std::sin(theta) * sum);
+  return std::sin(theta) * sum;
+}
+
+}  // namespace
+
+double chi_square_quantile(double probability, double degrees) {
+  const double a = degrees / 2.0;
+  const double spread = 2.0 / (9.0 * degrees);
+  const double cube_root = 1.0 - spread + normal_quantile(probability) * std::sqrt(spread);
+  // Where the approximation fails, in the lower tail of few degrees, the series' first term serves.
+  double x = cube_root > 0.1 ? degrees * cube_root * cube_root * cube_root
+                             : 2.0 * std::exp((std::log(probability) + std::lgamma(a + 1.0)) / a);
+  for (int i = 0; i < 50; ++i) {
+    const double density = 0.5 * std::exp((a - 1.0) * std::log(x / 2.0) - x / 2.0 - std::lgamma(a));
+    const double next = x - (incomplete_gamma(a, x / 2.0) - probability) / density;
+    const double bounded = std::clamp(next, x / 2.0, x * 2.0);
+    if (std::abs(bounded - x) <= 1e-13 * x) return bounded;
+    x = bounded;
+  }
+  return x;
+}
+
+double student_quantile(double probability, std::int64_t degrees) {
+  if (probability < 0.5) return -student_quantile(1.0 - probability, degrees);
+  double low = 0.0;
+  double high = 1e9;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 + 0.5 * student_central(middle, degrees) < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+Interval chi_square_mean_bounds95(double count, double degrees) {
+  return {chi_square_quantile(0.025, count * degrees) / count,
+          chi_square_quantile(0.975, count * degrees) / count};
+}
+
+}  // namespace ghtrack

@@ -1,0 +1,251 @@
+#include "tools/metrics/run_metrics.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace ghtrack {
+namespace {
+
+bool counts_as_output(const TrackEstimate& track) {
+  return track.status != TrackStatus::kTentative;
+}
+
+std::optional<double> root_mean(double sum, std::int64_t count) {
+  if (count == 0) return std::nullopt;
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+std::optional<double> mean(double sum, std::int64_t count) {
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+/// The object whose detection the track used in this scan, if it used one of an object.
+std::optional<ObjectId> used_object(const TrackEstimate& track, const Observation& observation) {
+  if (!track.detection) return std::nullopt;
+  const ObjectId origin = observation.origins.at(*track.detection);
+  if (origin == kClutterOrigin) return std::nullopt;
+  return origin;
+}
+
+}  // namespace
+
+RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options)
+    : objects_(std::move(objects)), options_(options), tallies_(objects_.size()) {}
+
+void RunMetrics::add(const StepRecord& record, std::span<const FilterFacts> facts) {
+  score_sets(record);
+  update_following(record);
+
+  const std::vector<std::optional<std::size_t>> chosen = choose_tracks(record);
+  for (const TruthState& truth : record.truth.objects) {
+    const auto object = static_cast<std::size_t>(truth.id);
+    ObjectTally& tally = tallies_.at(object);
+    ++tally.scans;
+    if (chosen[object]) {
+      const std::size_t track = *chosen[object];
+      score_object(truth, record.tracks.tracks[track],
+                   track < facts.size() ? facts[track] : FilterFacts{}, record.truth.time);
+      if (used_object(record.tracks.tracks[track], record.observation) == truth.id) {
+        ++tally.detections_used;
+      }
+    }
+    tally.before = truth;
+    tally.before_time = record.truth.time;
+  }
+  score_detections(record);
+}
+
+/// Compares the raw detections with the objects that made them.
+void RunMetrics::score_detections(const StepRecord& record) {
+  for (std::size_t i = 0; i < record.observation.origins.size(); ++i) {
+    const ObjectId origin = record.observation.origins[i];
+    if (origin == kClutterOrigin) continue;
+    ObjectTally& tally = tallies_.at(static_cast<std::size_t>(origin));
+    if (!tally.before || tally.before_time != record.truth.time) continue;  // it has just gone
+    ++tally.detections;
+    tally.squared_measurement_error +=
+        (record.observation.scan.detections[i].position - tally.before->position).squaredNorm();
+  }
+}
+
+void RunMetrics::score_sets(const StepRecord& record) {
+  std::vector<std::int64_t> truth_ids, track_ids;
+  std::vector<Vec2> truth, tracks;
+  for (const TruthState& object : record.truth.objects) {
+    truth_ids.push_back(object.id);
+    truth.push_back(object.position);
+  }
+  for (const TrackEstimate& track : record.tracks.tracks) {
+    if (!counts_as_output(track)) continue;
+    track_ids.push_back(track.id);
+    tracks.push_back(track.position);
+  }
+  if (truth.empty() && tracks.empty()) return;
+
+  ++sums_.scans;
+  const GospaResult sets = gospa(truth, tracks, options_.gospa());
+  sums_.gospa += sets.gospa;
+  sums_.gospa_localisation += sets.localisation;
+  sums_.gospa_missed += sets.missed;
+  sums_.gospa_false += sets.false_tracks;
+  sums_.ospa += sets.ospa;
+  sums_.missed_targets += sets.missed_count;
+  sums_.false_tracks += sets.false_count;
+  mot_.add_points(truth_ids, truth, track_ids, tracks, options_.matching());
+}
+
+void RunMetrics::update_following(const StepRecord& record) {
+  Following now;
+  for (const TrackEstimate& track : record.tracks.tracks) {
+    if (const auto object = used_object(track, record.observation)) {
+      now[track.id] = *object;
+    } else if (const auto found = following_.find(track.id); found != following_.end()) {
+      now[track.id] = found->second;
+    }
+  }
+  following_ = std::move(now);
+}
+
+/// For each object the index of the track that follows it: rather one that used its detection in
+/// this scan, then the one that followed it before, then the oldest.
+std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepRecord& record) {
+  const std::vector<TrackEstimate>& tracks = record.tracks.tracks;
+  std::vector<std::optional<std::size_t>> chosen(objects_.size());
+  const auto rank = [&](std::size_t i, ObjectId object) {
+    const ObjectTally& tally = tallies_[static_cast<std::size_t>(object)];
+    return std::tuple(used_object(tracks[i], record.observation) != object,
+                      tally.track != tracks[i].id, tracks[i].id);
+  };
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto found = following_.find(tracks[i].id);
+    if (found == following_.end() || !counts_as_output(tracks[i])) continue;
+    const ObjectId object = found->second;
+    auto& best = chosen.at(static_cast<std::size_t>(object));
+    if (!best || rank(i, object) < rank(*best, object)) best = i;
+  }
+  return chosen;
+}
+
+void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& track,
+                              const FilterFacts& facts, double time) {
+  ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
+  if (tally.track && tally.track != track.id) ++tally.track_changes;
+  tally.track = track.id;
+
+  const Vec2 error = track.position - truth.position;
+  tally.squared_error.add(error.squaredNorm());
+  tally.error += error;
+  tally.squared_velocity_error += (track.velocity - truth.velocity).squaredNorm();
+
+  Vec2 jerk = Vec2::Zero();
+  if (tally.before && time > tally.before_time) {
+    jerk = (truth.acceleration - tally.before->acceleration) / (time - tally.before_time);
+  }
+  const Vec2 lag = facts.lag_per_acceleration * truth.acceleration + facts.lag_per_jerk * jerk;
+  tally.predicted_square += track.sigma.squaredNorm() + lag.squaredNorm();
+  if (track.sigma.minCoeff() > 0.0) {
+    tally.nees.add(error.cwiseQuotient(track.sigma).squaredNorm());
+  }
+  if (track.residual) {
+    const Vec2& residual = *track.residual;
+    tally.innovation += residual.norm();
+    ++tally.innovations;
+    if (track.innovation_covariance.determinant() > 0.0) {
+      tally.nis += residual.dot(track.innovation_covariance.inverse() * residual);
+      ++tally.nis_count;
+    }
+  }
+
+  const auto usage = std::find_if(tally.usage.begin(), tally.usage.end(), [&](const Usage& u) {
+    return u.filter == track.filter && u.gains == facts.gains;
+  });
+  if (usage == tally.usage.end()) {
+    tally.usage.push_back({track.filter, std::string(facts.gains), 1});
+  } else {
+    ++usage->scans;
+  }
+}
+
+ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& tally) const {
+  ObjectReport report;
+  report.id = object.id;
+  report.name = object.name;
+  report.regime = object.regime;
+  report.scans = tally.scans;
+  report.detections = tally.detections;
+  report.detections_used = tally.detections_used;
+  report.detections_missed = tally.scans - tally.detections_used;
+  report.track_changes = tally.track_changes;
+  report.tracked = tally.squared_error.count();
+  report.measurement_rmse = root_mean(tally.squared_measurement_error, tally.detections);
+  report.mai = mean(tally.innovation, tally.innovations);
+  if (report.tracked == 0) return report;
+
+  const auto leading =
+      std::max_element(tally.usage.begin(), tally.usage.end(),
+                       [](const Usage& a, const Usage& b) { return a.scans < b.scans; });
+  report.filter = leading->filter;
+  report.gains = leading->gains;
+  report.rmse_position = std::sqrt(tally.squared_error.mean());
+  if (const auto square = tally.squared_error.confidence95()) {
+    report.rmse_position_ci95 =
+        Interval{std::sqrt(std::max(0.0, square->low)), std::sqrt(square->high)};
+  }
+  if (tally.predicted_square > 0.0) {
+    report.predicted_rmse = root_mean(tally.predicted_square, report.tracked);
+  }
+  report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);
+  report.bias = tally.error / static_cast<double>(report.tracked);
+  if (tally.nees.count() > 0) {
+    report.nees = tally.nees.mean();
+    report.nees_bounds95 = chi_square_mean_bounds95(tally.nees.effective_count(), 2.0);
+  }
+  report.nis = mean(tally.nis, tally.nis_count);
+  if (tally.nis_count > 0) {
+    report.nis_bounds95 = chi_square_mean_bounds95(static_cast<double>(tally.nis_count), 2.0);
+  }
+  return report;
+}
+
+RunReport RunMetrics::report() const {
+  RunReport report;
+  report.options = options_;
+  TotalReport& total = report.total;
+  total = sums_;
+  const auto scans = static_cast<double>(std::max<std::int64_t>(1, sums_.scans));
+  for (double* sum :
+       {&total.gospa, &total.gospa_localisation, &total.gospa_missed, &total.gospa_false,
+        &total.ospa, &total.missed_targets, &total.false_tracks}) {
+    *sum /= scans;
+  }
+  total.mot = mot_.result();
+
+  double error = 0.0, velocity = 0.0, measurement = 0.0, predicted = 0.0, innovation = 0.0;
+  std::int64_t tracked = 0, detections = 0, innovations = 0;
+  for (const ObjectInfo& object : objects_) {
+    const ObjectTally& tally = tallies_[static_cast<std::size_t>(object.id)];
+    report.objects.push_back(report_of(object, tally));
+    if (const std::int64_t count = tally.squared_error.count(); count > 0) {
+      error += tally.squared_error.mean() * static_cast<double>(count);
+      tracked += count;
+    }
+    velocity += tally.squared_velocity_error;
+    predicted += tally.predicted_square;
+    measurement += tally.squared_measurement_error;
+    detections += tally.detections;
+    innovation += tally.innovation;
+    innovations += tally.innovations;
+  }
+  total.rmse_position = root_mean(error, tracked);
+  total.rmse_velocity = root_mean(velocity, tracked);
+  if (predicted > 0.0) total.predicted_rmse = root_mean(predicted, tracked);
+  total.measurement_rmse = root_mean(measurement, detections);
+  total.mai = mean(innovation, innovations);
+  return report;
+}
+
+}  // namespace ghtrack

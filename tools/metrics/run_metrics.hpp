@@ -1,0 +1,154 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "tools/metrics/batch_means.hpp"
+#include "tools/metrics/gospa.hpp"
+#include "tools/metrics/mot_score.hpp"
+#include "tools/record/step_record.hpp"
+
+namespace ghtrack {
+
+struct RunMetricsOptions {
+  double sigma = 1.0;                    // noise of the first sensor per axis [m]
+  std::optional<double> cutoff;          // GOSPA's c [m]; 5 sigma if not given
+  double order = 2.0;                    // GOSPA's p
+  double alpha = 2.0;                    // GOSPA's alpha
+  std::optional<double> match_distance;  // for MOTA, IDF1, HOTA [m]; c if not given
+
+  GospaOptions gospa() const { return {cutoff.value_or(5.0 * sigma), order, alpha}; }
+  double matching() const { return match_distance.value_or(gospa().cutoff); }
+};
+
+/// What the owner of a run knows about the filter that leads a track. The lag of the estimate
+/// behind a steadily moving object follows from the gains:
+///   lag = lag_per_acceleration · a + lag_per_jerk · da/dt.
+struct FilterFacts {
+  std::string_view gains;             // for the reader, such as "g 0.1, h 0.005"
+  double lag_per_acceleration = 0.0;  // [s²]
+  double lag_per_jerk = 0.0;          // [s³]
+};
+
+/// How well one object was followed. Errors are estimate minus truth, of the confirmed or coasting
+/// track that follows the object: the one that last used a detection made by it. Values that need
+/// data which did not occur are absent.
+struct ObjectReport {
+  ObjectId id = 0;
+  std::string name;
+  std::string regime;
+  std::string filter;  // that led most of the time; empty if no track followed
+  std::string gains;
+  std::int64_t scans = 0;                      // in which the object existed
+  std::int64_t tracked = 0;                    // … and a track followed it
+  std::int64_t detections = 0;                 // made by it
+  std::int64_t detections_used = 0;            // scans in which its track used one of them
+  std::int64_t detections_missed = 0;          // the other scans
+  std::int64_t track_changes = 0;              // times that another track took over
+  std::optional<double> rmse_position;         // √ mean |e|² [m]
+  std::optional<Interval> rmse_position_ci95;  // 95 % confidence
+  std::optional<double> predicted_rmse;        // √ (mean σx² + σy² + mean |lag|²) [m]
+  std::optional<double> rmse_velocity;         // [m/s]
+  std::optional<double> measurement_rmse;      // of its raw detections [m]
+  std::optional<Vec2> bias;                    // mean error [m]
+  std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
+  std::optional<double> nees;                  // mean of ex²/σx² + ey²/σy²; 2 if consistent
+  std::optional<Interval> nees_bounds95;
+  std::optional<double> nis;  // mean of rᵀ S⁻¹ r; 2 if consistent
+  std::optional<Interval> nis_bounds95;
+};
+
+/// Means over the scans in which there was a target or a track, and counts over the run.
+struct TotalReport {
+  std::int64_t scans = 0;
+  double gospa = 0.0;                                                      // [m]
+  double gospa_localisation = 0.0, gospa_missed = 0.0, gospa_false = 0.0;  // [m^p]
+  double ospa = 0.0;                                                       // [m]
+  double missed_targets = 0.0, false_tracks = 0.0;                         // per scan
+  std::optional<double> rmse_position;                                     // over all objects [m]
+  std::optional<double> predicted_rmse;                                    // [m]
+  std::optional<double> rmse_velocity;                                     // [m/s]
+  std::optional<double> measurement_rmse;                                  // [m]
+  std::optional<double> mai;                                               // [m]
+  MotResult mot;
+};
+
+struct RunReport {
+  RunMetricsOptions options;
+  TotalReport total;
+  std::vector<ObjectReport> objects;
+};
+
+/// Scores a run scan by scan. Only confirmed and coasting tracks count as output. Memory does not
+/// grow with the number of scans, except as MotScore says.
+class RunMetrics {
+ public:
+  RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options);
+
+  /// @param facts  parallel to record.tracks.tracks, or empty
+  void add(const StepRecord& record, std::span<const FilterFacts> facts = {});
+
+  RunReport report() const;
+
+ private:
+  /// A filter with its gains, and in how many scans it led.
+  struct Usage {
+    std::string filter;
+    std::string gains;
+    std::int64_t scans = 0;
+  };
+
+  /// Sums over the scans of one object.
+  struct ObjectTally {
+    std::int64_t scans = 0;
+    std::int64_t detections = 0;
+    std::int64_t detections_used = 0;
+    std::int64_t track_changes = 0;
+    std::optional<int> track;  // that follows the object, or did last
+    BatchMeans squared_error;
+    Vec2 error = Vec2::Zero();
+    double squared_velocity_error = 0.0;
+    double squared_measurement_error = 0.0;
+    double predicted_square = 0.0;  // variance and squared lag
+    double innovation = 0.0;
+    std::int64_t innovations = 0;
+    BatchMeans nees;
+    double nis = 0.0;
+    std::int64_t nis_count = 0;
+    std::optional<TruthState> before;  // at the latest scan
+    double before_time = 0.0;
+    std::vector<Usage> usage;
+  };
+
+  /// Which object each live track follows.
+  using Following = std::unordered_map<int, ObjectId>;
+
+  void score_sets(const StepRecord& record);
+  void update_following(const StepRecord& record);
+  std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
+  void score_detections(const StepRecord& record);
+  void score_object(const TruthState& truth, const TrackEstimate& track, const FilterFacts& facts,
+                    double time);
+  ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
+
+  std::vector<ObjectInfo> objects_;
+  RunMetricsOptions options_;
+  std::vector<ObjectTally> tallies_;  // by object
+  Following following_;
+  MotScore mot_;
+  TotalReport sums_;  // GOSPA and its kin, not yet divided by the number of scans
+};
+
+/// The report as metrics.json has it; absent or infinite values become null.
+nlohmann::ordered_json to_json(const RunReport& report);
+
+/// The report as text: one line per object, at most 120 columns, and the totals.
+std::string to_table(const RunReport& report);
+
+}  // namespace ghtrack

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tools/metrics/mot_json.hpp"
+#include "tools/metrics/run_metrics.hpp"
+#include "tools/metrics/text_table.hpp"
+
+namespace ghtrack {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json interval(const std::optional<Interval>& range) {
+  return range ? Json::array({number(range->low), number(range->high)}) : Json(nullptr);
+}
+
+Json object_json(const ObjectReport& object) {
+  Json json;
+  json["id"] = object.id;
+  json["name"] = object.name;
+  json["regime"] = object.regime;
+  json["filter"] = object.filter;
+  json["gains"] = object.gains;
+  json["scans"] = object.scans;
+  json["tracked"] = object.tracked;
+  json["detections"] = object.detections;
+  json["detections_used"] = object.detections_used;
+  json["detections_missed"] = object.detections_missed;
+  json["track_changes"] = object.track_changes;
+  json["rmse_position"] = number(object.rmse_position);
+  json["rmse_position_ci95"] = interval(object.rmse_position_ci95);
+  json["predicted_rmse"] = number(object.predicted_rmse);
+  json["rmse_velocity"] = number(object.rmse_velocity);
+  json["measurement_rmse"] = number(object.measurement_rmse);
+  json["bias"] = object.bias ? Json::array({number(object.bias->x()), number(object.bias->y())})
+                             : Json(nullptr);
+  json["mai"] = number(object.mai);
+  json["nees"] = number(object.nees);
+  json["nees_bounds95"] = interval(object.nees_bounds95);
+  json["nis"] = number(object.nis);
+  json["nis_bounds95"] = interval(object.nis_bounds95);
+  return json;
+}
+
+Json total_json(const TotalReport& total) {
+  Json json;
+  json["scans"] = total.scans;
+  json["rmse_position"] = number(total.rmse_position);
+  json["predicted_rmse"] = number(total.predicted_rmse);
+  json["rmse_velocity"] = number(total.rmse_velocity);
+  json["measurement_rmse"] = number(total.measurement_rmse);
+  json["mai"] = number(total.mai);
+  json["gospa"] = number(total.gospa);
+  json["gospa_localisation"] = number(total.gospa_localisation);
+  json["gospa_missed"] = number(total.gospa_missed);
+  json["gospa_false"] = number(total.gospa_false);
+  json["ospa"] = number(total.ospa);
+  json["missed_targets"] = number(total.missed_targets);
+  json["false_tracks"] = number(total.false_tracks);
+  add_mot(json, total.mot);
+  return json;
+}
+
+std::string cell(const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return "-";
+  return std::abs(*value) < 1e5 ? fmt::format("{:.3f}", *value) : fmt::format("{:.2e}", *value);
+}
+
+}  // namespace
+
+Json to_json(const RunReport& report) {
+  const GospaOptions gospa = report.options.gospa();
+  Json json;
+  json["parameters"] = {{"gospa_c", gospa.cutoff},
+                        {"gospa_p", gospa.order},
+                        {"gospa_alpha", gospa.alpha},
+                        {"match_distance", report.options.matching()}};
+  json["total"] = total_json(report.total);
+  json["objects"] = Json::array();
+  for (const ObjectReport& object : report.objects) json["objects"].push_back(object_json(object));
+  return json;
+}
+
+std::string to_table(const RunReport& report) {
+  const std::vector<TextColumn> columns = {{"object", 20},           {"regime", 8},
+                                           {"filter and gains", 30}, {"RMSE [m]", 9, true},
+                                           {"predicted", 9, true},   {"raw", 9, true},
+                                           {"MAI [m]", 9, true},     {"used/missed", 12, true}};
+  std::vector<std::vector<std::string>> rows;
+  for (const ObjectReport& object : report.objects) {
+    rows.push_back({object.name, object.regime,
+                    object.gains.empty() ? object.filter : object.filter + " " + object.gains,
+                    cell(object.rmse_position), cell(object.predicted_rmse),
+                    cell(object.measurement_rmse), cell(object.mai),
+                    fmt::format("{}/{}", object.detections_used, object.detections_missed)});
+  }
+  const TotalReport& total = report.total;
+  const ClearMotResult& clear = total.mot.clear;
+  const GospaOptions gospa = report.options.gospa();
+  return text_table(columns, rows) +
+         fmt::format(
+             "\nGOSPA {} m (c {:.4g} m, p {:.4g}, alpha {:.4g}): {:.3g} missed and {:.3g} false "
+             "per "
+             "scan. OSPA {} m.\n"
+             "MOTA {:.3f}, IDF1 {:.3f}, HOTA {:.3f}; {} ID switches, {} fragmentations.\n",
+             cell(total.gospa), gospa.cutoff, gospa.order, gospa.alpha, total.missed_targets,
+             total.false_tracks, cell(total.ospa), clear.mota, total.mot.identity.idf1,
+             total.mot.hota.hota, clear.id_switches, clear.fragmentations);
+}
+
+}  // namespace ghtrack
