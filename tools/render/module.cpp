@@ -2,8 +2,11 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <string>
 #include <system_error>
+
+#include "tools/render/output_path.hpp"
 
 namespace ghtrack::render {
 

@@ -66,6 +66,7 @@ struct PanelDrawing {
 struct SceneDrawing {
   std::string title;
   std::uint64_t seed = 0;
+  double duration = 0.0;  // [s] of the scene: the time axis of plots
   /// The part of the world to show; it should hold every object over the whole run. If absent, the
   /// fields of view, rails and walls are shown.
   std::optional<Rectangle> world;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "tools/render/style.hpp"
+#include "tools/render/view.hpp"
+
+namespace ghtrack::render {
+
+/// Where the parts of a picture lie. Parts that are not shown have no height.
+struct Layout {
+  Viewport hud;
+  std::vector<Viewport> headers;  // of the panels, when there are several
+  std::vector<Viewport> panels;   // what shows the world, one for each compared filter
+  Viewport plot;                  // of the errors over time
+  Viewport legend;
+};
+
+/// Arranges the panels so that the world is shown as large as possible.
+Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style);
+
+}  // namespace ghtrack::render

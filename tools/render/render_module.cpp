@@ -1,0 +1,39 @@
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include <cstdlib>
+
+#include "tools/render/module.hpp"
+#include "tools/render/plot_picture.hpp"
+#include "tools/render/video_file.hpp"
+
+namespace ghtrack::render {
+
+namespace {
+
+class OpenCvModule : public RenderModule {
+ public:
+  OpenCvModule() {
+    // The backends print pages about what this module reports in one sentence.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+  }
+
+  std::unique_ptr<VideoSink> open_video(const VideoOptions& options,
+                                        const SceneDrawing& scene) override {
+    return open_video_file(options, scene);
+  }
+
+  void write_plot(const std::filesystem::path& path, const Plot& plot) override {
+    write_plot_picture(path, plot);
+  }
+};
+
+}  // namespace
+
+}  // namespace ghtrack::render
+
+extern "C" ghtrack::render::RenderModule* ghtrack_render_module() {
+  static ghtrack::render::OpenCvModule module;
+  return &module;
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/render/font.hpp"
+
+namespace ghtrack::render {
+
+/// The typefaces of a picture.
+struct Typefaces {
+  Font regular{Font::Weight::kRegular};
+  Font bold{Font::Weight::kBold};
+};
+
+/// Sizes that grow with the picture: all are given for 1280 × 720 pixels.
+struct Style {
+  double unit = 1.0;  // [px] of this picture per pixel of one with 1280 × 720
+
+  static Style of_picture(int width, int height) {
+    return {std::max(0.5, std::min(width / 1280.0, height / 720.0))};
+  }
+
+  double length(double pixels) const { return pixels * unit; }
+  int stroke(double pixels) const {
+    return std::max(1, static_cast<int>(std::lround(pixels * unit)));
+  }
+  int letters(double pixels) const {
+    return std::max(9, static_cast<int>(std::lround(pixels * unit)));
+  }
+};
+
+}  // namespace ghtrack::render

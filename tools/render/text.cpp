@@ -1,0 +1,75 @@
+#include "tools/render/text.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace ghtrack::render {
+
+namespace {
+
+constexpr char32_t kInvalid = 0x110000;
+
+/// Reads one character and moves on by at least one byte; kInvalid if it is not UTF-8.
+char32_t next_character(std::string_view text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(at++);
+  if (first < 0x80) return first;
+  const int more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
+  if (first < 0xC2 || first > 0xF4) return kInvalid;
+  char32_t character = first & (0x3F >> more);
+  for (int i = 0; i < more; ++i) {
+    if (at >= text.size() || (byte(at) & 0xC0) != 0x80) return kInvalid;
+    character = (character << 6) | (byte(at++) & 0x3F);
+  }
+  constexpr std::array<char32_t, 4> kSmallest{0, 0x80, 0x800, 0x10000};
+  const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
+  return character < kSmallest[static_cast<std::size_t>(more)] || surrogate ? kInvalid : character;
+}
+
+bool in(char32_t character, std::initializer_list<std::pair<char32_t, char32_t>> ranges) {
+  for (const auto& [first, last] : ranges)
+    if (character >= first && character <= last) return true;
+  return false;
+}
+
+/// Latin, Greek, Cyrillic and signs that mean something in a technical text.
+bool has_glyph(char32_t character) {
+  return in(character, {{0x20, 0x7E},     {0xA0, 0xAC},     {0xAE, 0x24F},    {0x370, 0x377},
+                        {0x37B, 0x37F},   {0x384, 0x38A},   {0x38C, 0x38C},   {0x38E, 0x3A1},
+                        {0x3A3, 0x3FF},   {0x400, 0x45F},   {0x1E00, 0x1EFF}, {0x2010, 0x2015},
+                        {0x2018, 0x2022}, {0x2026, 0x2026}, {0x2030, 0x2033}, {0x2070, 0x2071},
+                        {0x2074, 0x208E}, {0x20AC, 0x20AC}, {0x2190, 0x2199}, {0x2200, 0x2265}});
+}
+
+bool is_direction_mark(char32_t character) {
+  return in(character, {{0x200B, 0x200F}, {0x202A, 0x202E}, {0x2060, 0x2069}, {0xFEFF, 0xFEFF}});
+}
+
+bool is_blank(char32_t character) {
+  return character <= 0x20 || in(character, {{0x7F, 0xA0}, {0x2028, 0x2029}});
+}
+
+}  // namespace
+
+std::u32string drawable(std::string_view text, std::size_t longest) {
+  std::u32string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const char32_t character = next_character(text, at);
+    if (is_direction_mark(character)) continue;
+    if (is_blank(character)) {
+      if (!result.empty() && result.back() != U' ') result += U' ';
+    } else {
+      result += has_glyph(character) ? character : U'?';
+    }
+    if (result.size() > longest) {
+      result.resize(longest);
+      if (longest > 0) result.back() = U'…';
+      break;
+    }
+  }
+  while (!result.empty() && result.back() == U' ') result.pop_back();
+  return result;
+}
+
+}  // namespace ghtrack::render

@@ -1,0 +1,103 @@
+#include "tools/render/truth_painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ghtrack::render {
+
+namespace {
+
+const ObjectInfo* find(const SceneDrawing& scene, ObjectId id) {
+  const auto matches = [id](const ObjectInfo& object) { return object.id == id; };
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), matches);
+  return found == scene.objects.end() ? nullptr : &*found;
+}
+
+void draw_box(Canvas& canvas, Pixel centre, const BodyPose& pose, const Outline& outline,
+              const View& view, const Style& style) {
+  const double half_length =
+      std::fmax(0.5 * outline.length * view.scale() - style.length(1), style.length(5));
+  const double half_width = std::fmax(0.5 * outline.width * view.scale(), style.length(4));
+  const Pixel along{half_length * std::cos(pose.angle), -half_length * std::sin(pose.angle)};
+  const Pixel across{-half_width * std::sin(pose.angle), -half_width * std::cos(pose.angle)};
+  const auto corner = [&](double a, double b) {
+    return Pixel{centre.x + a * along.x + b * across.x, centre.y + a * along.y + b * across.y};
+  };
+  const std::vector<Pixel> corners{corner(1, 1), corner(1, -1), corner(-1, -1), corner(-1, 1)};
+  canvas.polygon(corners, dark::kTruth);
+  canvas.outline(corners, dark::kTruthEdge, style.stroke(1));
+}
+
+void draw_disc(Canvas& canvas, Pixel centre, double radius, double angle, const Style& style) {
+  canvas.disc(centre, radius, dark::kText);
+  const Pixel rim{centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
+  canvas.line(centre, rim, dark::kTruthEdge, style.stroke(radius > 8.0 ? 2 : 1.5));
+  canvas.circle(centre, radius, dark::kTruthEdge, style.stroke(1));
+}
+
+void draw_balloon(Canvas& canvas, Pixel centre, double radius, const Style& style) {
+  const double height = 1.12 * radius;
+  const Pixel knot{centre.x, centre.y + height};
+  std::vector<Pixel> string;
+  for (int i = 0; i <= 8; ++i)
+    string.push_back({knot.x + 0.14 * radius * std::sin(0.9 * i), knot.y + 0.28 * radius * i});
+  canvas.polyline(string, dark::kTruthEdge, style.stroke(1));
+  canvas.polygon(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), dark::kTruth);
+  canvas.outline(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), dark::kTruthEdge,
+                 style.stroke(1));
+  canvas.polygon({{knot.x, knot.y - 0.1 * radius},
+                  {knot.x - 0.22 * radius, knot.y + 0.25 * radius},
+                  {knot.x + 0.22 * radius, knot.y + 0.25 * radius}},
+                 dark::kTruth);
+  canvas.line({centre.x - 0.45 * radius, centre.y - 0.2 * radius},
+              {centre.x - 0.2 * radius, centre.y - 0.55 * radius}, dark::kDetection,
+              style.stroke(1.5));
+}
+
+}  // namespace
+
+double drawn_radius(const Outline& outline, const View& view, const Style& style) {
+  const double smallest = outline.shape == Outline::Shape::kBalloon ? 7.0 : 4.5;
+  return std::fmax(0.5 * outline.length * view.scale(), style.length(smallest));
+}
+
+ShapesShown draw_truth(Canvas& canvas, const View& view, const SceneDrawing& scene,
+                       const TruthSnapshot& truth, const Style& style) {
+  ShapesShown shown;
+  for (const BodyPose& body : truth.bodies) {
+    const ObjectInfo* const object = find(scene, body.id);
+    if (object == nullptr) continue;
+    const Pixel centre = view.to_pixel(body.position);
+    const double radius = drawn_radius(object->outline, view, style);
+    switch (object->outline.shape) {
+      case Outline::Shape::kBox:
+        draw_box(canvas, centre, body, object->outline, view, style);
+        shown.box = true;
+        break;
+      case Outline::Shape::kDisc:
+        draw_disc(canvas, centre, radius, body.angle, style);
+        shown.disc = true;
+        break;
+      case Outline::Shape::kBalloon:
+        draw_balloon(canvas, centre, radius, style);
+        shown.balloon = true;
+        break;
+    }
+  }
+  return shown;
+}
+
+void draw_wind(Canvas& canvas, const View& view, const std::vector<WindSample>& wind,
+               double reference, const Style& style) {
+  if (!(reference > 0.0)) return;
+  const double longest = style.length(60);
+  for (const WindSample& sample : wind) {
+    const Pixel middle = view.to_pixel(sample.position);
+    const double x = longest * sample.velocity.x() / reference;
+    const double y = -longest * sample.velocity.y() / reference;
+    canvas.arrow({middle.x - 0.5 * x, middle.y - 0.5 * y}, {middle.x + 0.5 * x, middle.y + 0.5 * y},
+                 style.length(7), dark::kWind, style.stroke(1));
+  }
+}
+
+}  // namespace ghtrack::render
