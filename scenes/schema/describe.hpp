@@ -58,7 +58,8 @@ concept HasAbout = requires {
 
 template <std::integral T>
 IntegerType integer_type() {
-  return {.range = "from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
+  return {.is_signed = std::is_signed_v<T>,
+          .range = "from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
                    std::to_string(std::numeric_limits<T>::max()),
           .parse =
               [](std::string_view text, void* value) {

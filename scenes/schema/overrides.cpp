@@ -19,7 +19,7 @@ std::vector<std::string_view> names_of_items(const Node& list) {
   std::vector<std::string_view> names;
   for (const Node& item : list.items) {
     const Node::Member* const name = item.find("name");
-    names.push_back(name != nullptr ? std::string_view(name->value.text) : "");
+    if (name != nullptr) names.push_back(name->value.text);
   }
   return names;
 }
@@ -31,13 +31,12 @@ Node& find_item(Node& list, const PathStep& step) {
     throw std::out_of_range(
         fmt::format("there is no item [{}]; the list has {}", *step.index, list.items.size()));
   }
-  const auto names = names_of_items(list);
-  const auto name = std::find(names.begin(), names.end(), step.key);
-  if (!step.bracket || name == names.end()) {
-    throw std::out_of_range(
-        fmt::format("'{}' is no item of the list{}", step.key, hint(step.key, "names", names)));
+  for (Node& item : list.items) {
+    const Node::Member* const name = item.find("name");
+    if (step.bracket && name != nullptr && name->value.text == step.key) return item;
   }
-  return list.items[static_cast<std::size_t>(name - names.begin())];
+  throw std::out_of_range(fmt::format("'{}' is no item of the list{}", step.key,
+                                      hint(step.key, "names", names_of_items(list))));
 }
 
 /// The member of a mapping that a step of the key means; made if there is none.
@@ -70,7 +69,7 @@ Node& find_or_make(Node& root, const std::vector<PathStep>& steps, int origin) {
 void apply(Node& root, std::string_view key, std::string_view text, int origin,
            const std::string& name, std::vector<Diagnostic>& found) {
   const auto steps = parse_path(key);
-  if (!steps) {
+  if (!steps || steps->size() > kMaxDepth) {
     found.push_back({.file = name, .message = "not a key; write it as in targets[0].ball.mass"});
     return;
   }

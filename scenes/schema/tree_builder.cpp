@@ -28,7 +28,8 @@ void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t) {
 void TreeBuilder::OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                            const std::string& value) {
   const std::size_t offset = begin(mark);
-  const char first = offset < source_.text().size() ? source_.text()[offset] : ' ';
+  if (offset == source_.text().size()) throw Refusal{0, "the file holds nothing"};
+  const char first = source_.text()[offset];
   const bool in_quotes = first == '"' || first == '\'';
   const bool is_block = first == '|' || first == '>';
   if (value.size() > kMaxScalarBytes) {

@@ -25,6 +25,7 @@ struct BooleanType {};  // bool
 struct TextType {};     // std::string
 
 struct IntegerType {
+  bool is_signed;
   std::string range;  // "from 0 to 255": what the C++ type can hold
   std::errc (*parse)(std::string_view text, void* value);
   std::string (*print)(const void* value);

@@ -33,6 +33,11 @@ std::string number_name(std::string_view kind, const FieldInfo& info) {
   return unit.empty() ? fmt::format("a {}", kind) : fmt::format("a {} in{}", kind, unit);
 }
 
+std::string mapping_name(const std::vector<std::string_view>& keys) {
+  return keys.empty() ? "an empty mapping {}"
+                      : fmt::format("a mapping with the keys {}", fmt::join(keys, ", "));
+}
+
 std::vector<std::string_view> kinds(const VariantType& type) {
   std::vector<std::string_view> names;
   for (const auto& alternative : type.alternatives) names.push_back(alternative.kind);
@@ -178,7 +183,10 @@ void ValueReader::read_integer(const Node& node, const IntegerType& type, void* 
   if (!expect(node, Node::Kind::kScalar, what)) return;
   double real = 0.0;
   const bool is_number = !node.quoted && parse_real(node.text, real) != std::errc::invalid_argument;
-  const std::errc error = is_number ? type.parse(node.text, object) : std::errc::invalid_argument;
+  const bool too_low = is_number && !type.is_signed && node.text.starts_with('-');
+  const std::errc error = too_low     ? std::errc::result_out_of_range
+                          : is_number ? type.parse(node.text, object)
+                                      : std::errc::invalid_argument;
   if (is_number && error == std::errc() && !is_allowed(type.approximate(object), info)) {
     report(node, fmt::format("must be {}, found {}", allowed_text(info), node.text));
   } else if (error == std::errc::result_out_of_range) {
