@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "tracker/filters/gains/gains.hpp"
+
 namespace ghtrack {
 
 /// Position and its derivatives on D axes, SI units.
@@ -23,6 +25,14 @@ template <int D>
 Kinematics<D> extrapolated(const Kinematics<D>& from, double dt) {
   return {from.position + dt * from.velocity + (0.5 * dt * dt) * from.acceleration,
           from.velocity + dt * from.acceleration, from.acceleration};
+}
+
+/// x + g r, v + (h / T) r, a + (2k / T²) r.
+template <int D>
+Kinematics<D> corrected(const Kinematics<D>& prior, const typename Kinematics<D>::Vector& residual,
+                        const Gains& gains, double dt) {
+  return {prior.position + gains.g * residual, prior.velocity + (gains.h / dt) * residual,
+          prior.acceleration + (2.0 * gains.k / (dt * dt)) * residual};
 }
 
 /// Inputs that a filter did not use.
