@@ -20,6 +20,7 @@ class ShortestPaths {
         owner_(detections + table.rows(), kMissed),
         price_(owner_.size(), 0.0),
         distance_(owner_.size(), kUnreached),
+        is_settled_(owner_.size(), false),
         parent_(owner_.size(), kMissed),
         assigned_column_(table.rows(), kMissed) {}
 
@@ -53,7 +54,8 @@ class ShortestPaths {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
       const Entry nearest = heap_.back();
       heap_.pop_back();
-      if (nearest.distance > distance_[nearest.column]) continue;  // superseded
+      if (is_settled_[nearest.column]) continue;  // by a shorter way
+      is_settled_[nearest.column] = true;
       settled_.push_back(nearest.column);
       if (owner_[nearest.column] == kMissed) {
         free_column = nearest.column;
@@ -70,7 +72,10 @@ class ShortestPaths {
       assigned_column_[row] = column;
       column = previous;
     }
-    for (const int column : reached_) distance_[column] = kUnreached;
+    for (const int column : reached_) {
+      distance_[column] = kUnreached;
+      is_settled_[column] = false;
+    }
   }
 
   /// Reduced costs of a row are measured from its own column, so that they are never negative.
@@ -84,7 +89,7 @@ class ShortestPaths {
   }
 
   void relax(int row, int column, double distance) {
-    if (!(distance < distance_[column])) return;
+    if (is_settled_[column] || !(distance < distance_[column])) return;
     if (distance_[column] == kUnreached) reached_.push_back(column);
     distance_[column] = distance;
     parent_[column] = row;
@@ -106,6 +111,7 @@ class ShortestPaths {
   std::vector<int> owner_;            // of each column: its track
   std::vector<double> price_;         // of each column: its dual variable
   std::vector<double> distance_;      // of each column, during one search
+  std::vector<bool> is_settled_;      // of each column, during one search: its distance is final
   std::vector<int> parent_;           // of each column, during one search: the row before it
   std::vector<int> assigned_column_;  // of each row
   std::vector<Entry> heap_;

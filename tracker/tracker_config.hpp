@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tracker/filters/filter.hpp"
+#include "tracker/hit_history.hpp"
 
 namespace ghtrack {
 
@@ -24,11 +25,12 @@ constexpr std::array<std::pair<std::string_view, Association>, 3> enum_names(Ass
            {"known", Association::kKnown}}};
 }
 
-/// A rule "count of the last `scans` scans": hits that confirm a track, misses that end it.
+/// Confirms a track after `hits` hits among its last `scans` scans.
 struct HitRule {
-  static constexpr std::string_view about = "confirms a track after enough hits";
   int hits = 3;
   int scans = 5;
+
+  bool holds_for(const HitHistory& history) const { return history.hits_in(scans) >= hits; }
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -43,10 +45,12 @@ struct HitRule {
   }
 };
 
+/// Ends a track after `misses` misses among its last `scans` scans.
 struct MissRule {
-  static constexpr std::string_view about = "ends a track after too many misses";
   int misses = 5;
   int scans = 5;
+
+  bool holds_for(const HitHistory& history) const { return history.misses_in(scans) >= misses; }
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -67,15 +71,12 @@ struct TrackerConfig {
   static constexpr std::string_view kDefaultFilter = "default";
 
   Association association = Association::kNearestGlobal;
-  double gate = 3.5;            // radius in sigmas of the innovation (Mahalanobis distance)
-  double initial_speed = 30.0;  // 1-sigma speed per axis of a target seen once [m/s]
+  double gate = 3.5;  // radius in sigmas of the innovation (Mahalanobis distance)
   HitRule confirm;
   MissRule drop_tentative{.misses = 2, .scans = 2};
   MissRule drop_confirmed{.misses = 5, .scans = 5};
+  double drop_unseen = 3.0;                     // longest time without a detection [s]
   std::map<std::string, FilterConfig> filters;  // by reported class, or "default"
-
-  /// The filter of a new track whose first detection reports `label`.
-  const FilterConfig& filter_for(const std::string& label) const;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -85,20 +86,20 @@ struct TrackerConfig {
             {.unit = "1",
              .meaning = "a detection farther from the prediction than this many sigmas of "
                         "the innovation is not for this track",
-             .maximum = 100.0,
-             .above = 0.0});
-    v.field("initial_speed", &TrackerConfig::initial_speed,
-            {.unit = "m/s",
-             .meaning = "spread of speeds per axis (1 sigma), for the gate of a "
-                        "track's second detection",
-             .maximum = 1e5,
-             .above = 0.0});
+             .above = 0.0,
+             .maximum = 100.0});
     v.field("confirm", &TrackerConfig::confirm, {.meaning = "when a track counts as real"});
     v.field("drop_tentative", &TrackerConfig::drop_tentative,
             {.meaning = "when a track that is not confirmed yet is given up"});
     v.field("drop_confirmed", &TrackerConfig::drop_confirmed,
             {.meaning = "when a confirmed track is given up; a miss outside the sensor's field of "
                         "view does not count"});
+    v.field("drop_unseen", &TrackerConfig::drop_unseen,
+            {.unit = "s",
+             .meaning = "a track without a detection for longer than this ends, "
+                        "wherever it is",
+             .above = 0.0,
+             .maximum = 1e6});
     v.field("filters", &TrackerConfig::filters,
             {.meaning = "filter by reported class; `default` serves every other class and "
                         "detections without one"});

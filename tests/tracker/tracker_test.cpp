@@ -1,0 +1,222 @@
+#include "tracker/tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace ghtrack {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kSigma = 0.5;
+constexpr double kPeriod = 0.1;
+
+TrackerDesign design(TrackerConfig config = {}, SensorTraits sensor = {}) {
+  sensor.period = kPeriod;
+  sensor.sigma = kSigma;
+  return {std::move(config), {sensor}};
+}
+
+Scan scan_of(double time, const std::vector<Vector2d>& positions) {
+  Scan scan{.time = time, .sensor = 0, .detections = {}};
+  for (const Vector2d& position : positions) {
+    scan.detections.push_back({.position = position,
+                               .covariance = kSigma * kSigma * Eigen::Matrix2d::Identity(),
+                               .label = {}});
+  }
+  return scan;
+}
+
+TrackerState follow(const TrackerDesign& tracker, const std::vector<Scan>& scans) {
+  TrackerState state;
+  for (const Scan& scan : scans) state = step(tracker, std::move(state), scan);
+  return state;
+}
+
+/// Targets in steady motion seen with noise, one in ten detections missing, some clutter.
+std::vector<Scan> busy_scans(int count, const Vector2d& shift, bool reversed) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit;
+  std::vector<Scan> scans;
+  for (int i = 0; i < count; ++i) {
+    std::vector<Vector2d> seen;
+    for (int target = 0; target < 8; ++target) {
+      const Vector2d truth(10.0 * target + 2.0 * kPeriod * i, 5.0 * (target % 3) - kPeriod * i);
+      const Vector2d noise(normal(random), normal(random));
+      if (unit(random) < 0.9) seen.push_back(truth + kSigma * noise + shift);
+    }
+    const Vector2d clutter(100.0 * unit(random), 20.0 * unit(random));
+    seen.push_back(clutter + shift);
+    if (reversed) std::reverse(seen.begin(), seen.end());
+    scans.push_back(scan_of(kPeriod * i, seen));
+  }
+  return scans;
+}
+
+std::vector<Vector2d> confirmed_positions(const TrackerState& state) {
+  std::vector<Vector2d> positions;
+  for (const TrackEstimate& track : snapshot(state).tracks) {
+    if (track.status != TrackStatus::kTentative) positions.push_back(track.position);
+  }
+  std::sort(positions.begin(), positions.end(),
+            [](const Vector2d& a, const Vector2d& b) { return a.x() < b.x(); });
+  return positions;
+}
+
+// Derived: 3 hits of 5 scans confirm; the first two detections do not.
+TEST(Tracker, ConfirmsATrackAtItsThirdHit) {
+  const TrackerDesign tracker = design();
+  TrackerState state;
+  std::vector<TrackStatus> statuses;
+  for (int i = 0; i < 4; ++i) {
+    state = step(tracker, std::move(state), scan_of(kPeriod * i, {Vector2d(i * 0.1, 0)}));
+    ASSERT_EQ(state.tracks.size(), 1U);
+    statuses.push_back(state.tracks.front().status);
+  }
+  using enum TrackStatus;
+  EXPECT_EQ(statuses, (std::vector{kTentative, kTentative, kConfirmed, kConfirmed}));
+}
+
+// Derived: a confirmed track coasts through 4 misses and ends at the 5th, a tentative one ends at
+// the second.
+TEST(Tracker, CoastsThroughMissesAndThenLetsGo) {
+  const TrackerDesign tracker = design();
+  TrackerState confirmed =
+      follow(tracker, {scan_of(0, {Vector2d(0, 0)}), scan_of(0.1, {Vector2d(1, 0)}),
+                       scan_of(0.2, {Vector2d(2, 0)})});
+  for (int miss = 1; miss <= 4; ++miss) {
+    confirmed = step(tracker, std::move(confirmed), scan_of(0.2 + 0.1 * miss, {}));
+    ASSERT_EQ(confirmed.tracks.size(), 1U);
+    EXPECT_EQ(confirmed.tracks.front().status, TrackStatus::kCoasting);
+    EXPECT_FALSE(snapshot(confirmed).tracks.front().residual);
+  }
+  EXPECT_NEAR(snapshot(confirmed).tracks.front().position.x(), 6.0, 1e-9);
+  confirmed = step(tracker, std::move(confirmed), scan_of(0.7, {}));
+  EXPECT_TRUE(confirmed.tracks.empty());
+
+  TrackerState tentative = follow(tracker, {scan_of(0, {Vector2d(0, 0)}), scan_of(0.1, {})});
+  EXPECT_EQ(tentative.tracks.size(), 1U);
+  tentative = step(tracker, std::move(tentative), scan_of(0.2, {}));
+  EXPECT_TRUE(tentative.tracks.empty());
+}
+
+// Derived: misses outside the field of view say nothing; after drop_unseen the track ends anyway.
+TEST(Tracker, MissesOutsideTheFieldOfViewDoNotCount) {
+  TrackerConfig config;
+  config.drop_unseen = 2.0;
+  const TrackerDesign tracker =
+      design(config, {.period = 1,
+                      .sigma = 1,
+                      .field_of_view = Eigen::AlignedBox2d(Vector2d(-5, -5), Vector2d(5, 5))});
+  TrackerState state;
+  for (int i = 0; i <= 5; ++i) {
+    state = step(tracker, std::move(state), scan_of(kPeriod * i, {Vector2d(i, 0)}));
+  }
+  for (int i = 6; i <= 24; ++i) {
+    state = step(tracker, std::move(state), scan_of(kPeriod * i, {}));
+    ASSERT_EQ(state.tracks.size(), 1U);
+  }
+  state = step(tracker, std::move(state), scan_of(2.6, {}));
+  EXPECT_TRUE(state.tracks.empty());
+}
+
+// Property: the order of the detections inside a scan changes nothing but the ids of tracks.
+TEST(Tracker, OrderInsideAScanDoesNotMatter) {
+  const TrackerDesign tracker = design();
+  const auto forward =
+      confirmed_positions(follow(tracker, busy_scans(60, Vector2d::Zero(), false)));
+  const auto backward =
+      confirmed_positions(follow(tracker, busy_scans(60, Vector2d::Zero(), true)));
+  EXPECT_GE(forward.size(), 7U);
+  EXPECT_EQ(forward, backward);
+}
+
+// Property: the world has no preferred origin; 1024 m is exact in binary, so only rounding differs.
+TEST(Tracker, ShiftingTheWorldShiftsTheTracks) {
+  const TrackerDesign tracker = design();
+  const Vector2d shift(1024.0, -512.0);
+  const auto here = confirmed_positions(follow(tracker, busy_scans(60, Vector2d::Zero(), false)));
+  const auto there = confirmed_positions(follow(tracker, busy_scans(60, shift, false)));
+  ASSERT_EQ(here.size(), there.size());
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    EXPECT_NEAR((there[i] - here[i] - shift).norm(), 0.0, 1e-9);
+  }
+}
+
+// Property: one detection serves one track.
+TEST(Tracker, NoDetectionServesTwoTracks) {
+  const TrackerDesign tracker = design();
+  TrackerState state;
+  for (const Scan& scan : busy_scans(100, Vector2d::Zero(), false)) {
+    state = step(tracker, std::move(state), scan);
+    std::vector<int> served(scan.detections.size(), 0);
+    for (const Track& track : state.tracks) {
+      if (track.detection) ++served[*track.detection];
+    }
+    EXPECT_TRUE(std::all_of(served.begin(), served.end(), [](int n) { return n <= 1; }));
+  }
+}
+
+// Derived: a scan from the past and detections that are not finite are refused and counted.
+TEST(Tracker, RefusesAndCountsWhatItCannotUse) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const TrackerDesign tracker = design();
+  TrackerState state =
+      follow(tracker, {scan_of(1.0, {Vector2d(0, 0), Vector2d(nan, 0), Vector2d(0, infinity)}),
+                       scan_of(0.5, {Vector2d(1, 1)}), scan_of(nan, {}), scan_of(infinity, {})});
+  EXPECT_EQ(state.tracks.size(), 1U);
+  EXPECT_EQ(state.scans_refused, 3);
+  EXPECT_EQ(state.detections_refused, 2);
+}
+
+// Property: whatever arrives, every state stays finite.
+TEST(Tracker, StaysFiniteUnderHostileScans) {
+  const TrackerDesign tracker = design();
+  const std::vector<double> hostile = {std::numeric_limits<double>::quiet_NaN(),
+                                       std::numeric_limits<double>::infinity(),
+                                       1e308,
+                                       -1e308,
+                                       1e-308,
+                                       0.0};
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  TrackerState state;
+  double time = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    time += random() % 10 == 0 ? 0.0 : kPeriod;
+    std::vector<Vector2d> seen = {Vector2d(normal(random), normal(random))};
+    if (random() % 10 == 0) seen.emplace_back(hostile[random() % hostile.size()], normal(random));
+    state = step(tracker, std::move(state), scan_of(time, seen));
+    for (const TrackEstimate& track : snapshot(state).tracks) {
+      ASSERT_TRUE(track.position.allFinite() && track.velocity.allFinite());
+      ASSERT_TRUE(track.sigma.allFinite());
+    }
+  }
+  EXPECT_GT(state.detections_refused, 100);
+}
+
+// Derived: with known identities two targets that cross exactly never swap their tracks.
+TEST(Tracker, KnownAssociationFollowsIdentitiesThroughACrossing) {
+  TrackerConfig config;
+  config.association = Association::kKnown;
+  const TrackerDesign tracker = design(config);
+  TrackerState state;
+  for (int i = -20; i <= 20; ++i) {
+    const std::vector<int> identities = {4, 9};
+    const Scan scan = scan_of(kPeriod * (i + 20), {Vector2d(i, 0), Vector2d(-i, 0)});
+    state = step(tracker, std::move(state), scan, identities);
+  }
+  ASSERT_EQ(state.tracks.size(), 2U);
+  EXPECT_EQ(state.tracks[0].identity, 4);
+  EXPECT_GT(estimate(state.tracks[0].filter).velocity.x(), 0.0);
+  EXPECT_LT(estimate(state.tracks[1].filter).velocity.x(), 0.0);
+}
+
+}  // namespace
+}  // namespace ghtrack
