@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <string_view>
 
 #include "sim/truth.hpp"
 
@@ -67,7 +67,14 @@ struct Wall {
   }
 };
 
-/// What a round body can touch: a half-plane below a level or a segment.
+/// Where a point stands to a surface.
+struct Contact {
+  Vec2 normal = Vec2::UnitY();  // from the surface's nearest point to the point
+  double distance = 0.0;        // [m]; negative below the ground
+  bool on_face = true;          // not beyond the end of a wall
+};
+
+/// What a round body can touch: the half-plane below a level, or a segment.
 struct Surface {
   enum class Shape { kGround, kWall };
   Shape shape = Shape::kGround;
@@ -79,8 +86,7 @@ struct Surface {
   explicit Surface(const Ground& ground);
   explicit Surface(const Wall& wall);
 
-  /// The point of the surface that is nearest to `point`.
-  Vec2 nearest(const Vec2& point) const;
+  Contact contact(const Vec2& point) const;
 };
 
 }  // namespace ghtrack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -91,44 +92,16 @@ struct TurbulenceConfig {
   }
 };
 
-/// A stationary Gauss–Markov scalar with the two spectra above, realised on knots of time: exact
-/// between knots far apart, then refined by conditional halving, so that any instant can be had
-/// without what came before it.
-class GustSpectrum {
- public:
-  enum class Shape { kLongitudinal, kTransverse };
-  GustSpectrum(Shape shape, double sigma, double time_constant);
-
-  /// State: (velocity, auxiliary), the latter unused for the longitudinal shape.
-  using State = Eigen::Vector2d;
-
-  struct Law {                   // of the state at the end of a step, given that at its beginning
-    Eigen::Matrix2d transition;  // mean = transition × state
-    Eigen::Matrix2d spread;      // covariance = spread × spreadᵀ
-  };
-  struct Bridge {  // of the state in the middle, given both ends
-    Eigen::Matrix2d from_left;
-    Eigen::Matrix2d from_right;
-    Eigen::Matrix2d spread;
-  };
-
-  Eigen::Matrix2d stationary_spread() const;
-  Law law(double step) const;
-  Bridge bridge(double step) const;
-
- private:
-  Eigen::Matrix2d transition(double step) const;
-  Eigen::Matrix2d covariance() const;
-
-  Shape shape_;
-  double sigma_;
-  double time_constant_;
-};
-
 /// Gusts as a function of place, time and seed alone: the physics rate, the number of balloons
 /// and the order of questions have no influence. Independent processes live on the nodes of a
 /// square lattice; smooth weights whose squares sum to one blend the four nodes around a point,
 /// which keeps the variance and makes neighbours feel the same gust.
+///
+/// Each process is the output of a stationary Gauss–Markov pair (z1, z2),
+///   dz1 = −z1 dt/T + √(2/T) dW,   dz2 = (z1 − z2) dt/T,
+/// whose step law is known exactly (Gillespie 1996): z1 is an Ornstein–Uhlenbeck process, and
+/// σ (√3 z1 + (1 − √3) z2) / √2 has the transverse Dryden spectrum. Blocks of knots are joined by
+/// that law and filled by conditional halving, so that a node can be entered at any time.
 class Turbulence {
  public:
   static constexpr double kKnotsPerSecond = 120.0;
@@ -138,31 +111,44 @@ class Turbulence {
 
   bool calm() const { return axes_.empty(); }
 
-  /// Gust velocity; linear between knots in time [m/s]. Not to be called from two threads at once:
-  /// it remembers what it has computed.
+  /// Gust velocity, linear in time between knots [m/s]. It remembers what it has computed: not to
+  /// be called from two threads at once.
   Vec2 at(const Vec2& position, double time);
 
  private:
-  static constexpr int kLevels = 7;
-  static constexpr int kBlock = 1 << kLevels;  // knots between exact steps
+  using State = Eigen::Vector2d;  // (z1, z2)
 
+  static constexpr int kLevels = 7;
+  static constexpr int kBlock = 1 << kLevels;  // knots from one exact step to the next
+
+  struct Halving {  // law of the state half-way, given those at both ends
+    Eigen::Matrix2d from_left;
+    Eigen::Matrix2d from_right;
+    Eigen::Matrix2d spread;
+  };
   struct Axis {
     Vec2 direction;
-    GustSpectrum::Law law;
-    Eigen::Matrix2d stationary_spread;
-    std::vector<GustSpectrum::Bridge> bridges;  // widest first
+    Eigen::RowVector2d output;   // velocity = output × state
+    Eigen::Matrix2d transition;  // over a block
+    Eigen::Matrix2d spread;      // of the state after a block: covariance = spread spreadᵀ
+    std::array<Halving, kLevels> halvings;  // widest first
+  };
+  struct Block {
+    std::int64_t index = -1;
+    std::array<State, 2> left;   // per axis, at the beginning
+    std::array<State, 2> right;  // and at the end
+    std::array<Vec2, kBlock + 1> gusts;
   };
   struct Node {
-    std::int64_t block = -1;
-    std::vector<GustSpectrum::State> left;   // state at the block's beginning, per axis
-    std::vector<GustSpectrum::State> right;  // and at its end
-    std::vector<Vec2> gusts;                 // world frame, at each knot of the block
+    std::array<Block, 2> blocks;  // of even and odd index: a step may end where a block begins
   };
 
-  const Node& node_at(std::int64_t column, std::int64_t row, std::int64_t block);
-  void start(Node& node, std::uint64_t key) const;
-  void advance(Node& node, std::uint64_t key) const;
-  void refine(Node& node, std::uint64_t key) const;
+  static Axis make_axis(const Vec2& direction, const Eigen::RowVector2d& output, double time);
+  const Block& block_at(std::uint64_t node_key, std::int64_t index);
+  void start(Block& block, std::uint64_t node_key) const;
+  void follow(Block& block, const Block& previous, std::uint64_t node_key) const;
+  void fill(Block& block, std::uint64_t node_key) const;
+  void forget_old(std::int64_t index);
 
   std::uint64_t seed_;
   double spacing_ = 1.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -11,7 +12,8 @@
 
 namespace ghtrack {
 
-/// u(y) = (u* / κ) ln(y / z0) above the ground, the neutral surface layer (Prandtl).
+/// u(y) = (u* / κ) ln(y / z0) above the ground, the neutral surface layer (Prandtl); constant above
+/// 1000 m, where the boundary layer ends.
 struct LogarithmicShear {
   static constexpr std::string_view kind = "logarithmic";
   static constexpr std::string_view about = "u(y) = (u*/kappa) ln(y/z0), the neutral surface layer";
@@ -25,13 +27,13 @@ struct LogarithmicShear {
     v.field("friction_velocity", &LogarithmicShear::friction_velocity,
             {.unit = "m/s", .meaning = "u*", .minimum = -10.0, .maximum = 10.0});
     v.field("roughness", &LogarithmicShear::roughness,
-            {.unit = "m", .meaning = "roughness length z0", .above = 0.0, .maximum = 10.0});
+            {.unit = "m", .meaning = "roughness length z0", .minimum = 1e-5, .maximum = 10.0});
     v.field("karman", &LogarithmicShear::karman,
             {.unit = "1", .meaning = "von Kármán's constant", .minimum = 0.3, .maximum = 0.5});
   }
 };
 
-/// u(y) = U (y / h)^n above the ground.
+/// u(y) = U (y / h)^n above the ground, constant above 1000 m.
 struct PowerShear {
   static constexpr std::string_view kind = "power";
   static constexpr std::string_view about = "u(y) = U (y/h)^n";
@@ -48,9 +50,9 @@ struct PowerShear {
              .minimum = -150.0,
              .maximum = 150.0});
     v.field("height", &PowerShear::height,
-            {.unit = "m", .meaning = "reference height h", .above = 0.0, .maximum = 1000.0});
+            {.unit = "m", .meaning = "reference height h", .minimum = 1.0, .maximum = 1000.0});
     v.field("exponent", &PowerShear::exponent,
-            {.unit = "1", .meaning = "n", .minimum = 0.0, .maximum = 1.0});
+            {.unit = "1", .meaning = "n", .minimum = 0.0, .maximum = 0.5});
   }
 };
 
@@ -129,7 +131,7 @@ struct RankineVortex {
              .minimum = -150.0,
              .maximum = 150.0});
     v.field("radius", &RankineVortex::radius,
-            {.unit = "m", .meaning = "of the core", .above = 0.0, .maximum = 1e6});
+            {.unit = "m", .meaning = "of the core", .minimum = 1.0, .maximum = 1e6});
     v.field("exponent", &RankineVortex::exponent,
             {.unit = "1", .meaning = "n of the decay outside", .minimum = 0.0, .maximum = 2.0});
   }
@@ -164,7 +166,7 @@ struct HollandVortex {
              .minimum = 0.0,
              .maximum = 150.0});
     v.field("radius", &HollandVortex::radius,
-            {.unit = "m", .meaning = "of the largest speed, Rm", .above = 0.0, .maximum = 1e6});
+            {.unit = "m", .meaning = "of the largest speed, Rm", .minimum = 1.0, .maximum = 1e6});
     v.field("shape", &HollandVortex::shape,
             {.unit = "1", .meaning = "Holland's B", .minimum = 0.5, .maximum = 3.0});
     v.field("coriolis", &HollandVortex::coriolis,
@@ -246,18 +248,32 @@ class Wind {
   /// Its change along a particle of air, Dw/Dt = ∂w/∂t + (w·∇)w [m/s²], by central differences.
   Vec2 material_derivative(const Vec2& position, double time) const;
 
-  /// The first instant after `time` at which the wind is not smooth; infinity if there is none.
-  double next_kink(double time) const;
+  /// Calls `integrate(begin, end)` for each part of [from, to] during which the wind is smooth in
+  /// time. To stay on the right side of a jump, `integrate` asks for the wind at `inside(…)` only.
+  template <class Integrate>
+  void over_smooth_parts(double from, double to, const Integrate& integrate) const {
+    while (from < to) {
+      const double end = steady_ ? to : std::min(to, next_kink(from));
+      integrate(from, end);
+      from = end;
+    }
+  }
 
-  /// Whether the wind is the same everywhere and always.
-  bool uniform() const { return uniform_; }
+  /// The instant of [begin, end] nearest to `time` that is not one of its ends.
+  static double inside(double time, double begin, double end) {
+    const double margin = std::min(1e-9, 0.25 * (end - begin));
+    return std::clamp(time, begin + margin, end - margin);
+  }
 
  private:
+  double next_kink(double time) const;
+
   WindConfig config_;
   double ground_;
-  bool uniform_;
+  bool uniform_;                   // the same everywhere and always
+  bool steady_;                    // without kinks in time
   std::vector<double> kinks_;      // of the gusts, sorted
-  mutable Turbulence turbulence_;  // a pure function; only its memory of values changes
+  mutable Turbulence turbulence_;  // a pure function: only its memory of values changes
 };
 
 }  // namespace ghtrack

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,9 +31,17 @@ struct WorldConfig {
   std::vector<Target> targets;
 };
 
-/// Gives every nameless target a name, "ball 2" for the second ball.
-/// @throws std::invalid_argument if two targets have the same name
+/// Gives every nameless target a name: "ball 2" for the second ball, or the next free number.
 void name_targets(std::vector<Target>& targets);
+
+/// What is wrong with a list of targets as a whole.
+struct TargetProblem {
+  std::size_t target;   // index in the list
+  std::string message;  // what is wrong and what is allowed
+};
+
+/// Finds equal names, and round bodies that begin inside each other.
+std::vector<TargetProblem> find_problems(const std::vector<Target>& targets);
 
 /// All targets in their surroundings: forces in, truth out.
 ///
@@ -41,20 +51,29 @@ void name_targets(std::vector<Target>& targets);
 /// sampled, nor on targets elsewhere.
 class World {
  public:
-  /// @throws std::invalid_argument if two targets have the same name
+  /// Nameless targets get names.
+  /// @throws std::invalid_argument if the targets have problems
   World(const WorldConfig& config, std::uint64_t seed);
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
 
   /// The objects that sensors may see, in the order of their ids.
   const std::vector<ObjectInfo>& objects() const { return objects_; }
 
-  /// The truth at a time [s] that is not before that of the previous call.
-  /// @throws std::invalid_argument if it is
+  /// The truth at a time [s]; times must not decrease from call to call.
+  /// @throws std::invalid_argument if they do
+  /// @throws std::runtime_error if a target's motion has become infinite
   TruthSnapshot sample(double time);
 
+  /// What surrounds the targets.
+  const Environment& environment() const;
+
  private:
-  struct Mover;
+  struct Scenery;
 
   std::vector<ObjectInfo> objects_;
+  std::unique_ptr<Scenery> scenery_;
 };
 
 }  // namespace ghtrack

@@ -99,6 +99,7 @@ class BalloonModel {
 
  private:
   FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
+  double drag_per_speed(const Environment& environment) const;  // k of −k |u| u [1/m]
 
   Balloon balloon_;
   RoundBody round_;

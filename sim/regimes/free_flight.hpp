@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "sim/regimes/motion.hpp"
 #include "sim/surface.hpp"
 #include "sim/truth.hpp"
 
@@ -34,22 +35,26 @@ struct RoundBody {
 };
 
 /// The rates of a body that a surface supports: the normal part of the acceleration is taken up,
-/// Coulomb friction acts until the body rolls.
+/// Coulomb friction acts along the surface until the body rolls.
 FlightRate supported_rate(const FlightState& state, const FlightRate& free, const RoundBody& body,
                           const Surface& surface);
 
-/// Whether `free` acceleration presses the body onto its support.
-bool pressed(const FlightState& state, const FlightRate& free, const Surface& surface);
-
-/// Distance between the body's rim and the surface, negative when they overlap [m].
-double gap(const Vec2& center, const RoundBody& body, const Surface& surface);
+/// Whether the surface still supports a body that `free` accelerates.
+bool supports(const Surface& surface, const FlightState& state, const FlightRate& free);
 
 /// Impact law: restitution along the normal, Coulomb friction along the surface, limited by the
-/// impulse after which the contact point does not slip:
+/// impulse after which the contact point does not slip (Cross 2002):
 ///   v_n' = −e v_n,  J_t = min(μ (1 + e) |v_n|, |v_t| / (1 + 1/β)),  v_t the slip of the rim.
 /// A bounce too slow to be seen makes the surface a support.
 void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces,
             std::size_t surface);
+
+/// What a sensor may see of a body with these rates of free flight.
+Kinematics flight_kinematics(const FlightState& state, const FlightRate& free,
+                             const RoundBody& body, const std::vector<Surface>& surfaces);
+
+/// Takes over what a collision has made of the body.
+void adopt_flight(FlightState& state, const RigidBody& body);
 
 /// One Runge–Kutta step of fourth order. Rates: FlightRate(const FlightState&, double time).
 template <class Rates>
@@ -100,7 +105,7 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
   for (int impact = 0; impact <= kMaxImpacts && time < to; ++impact) {
     if (state.support >= 0) {
       const Surface& surface = surfaces[static_cast<std::size_t>(state.support)];
-      if (!pressed(state, rates(state, time), surface)) state.support = -1;
+      if (!supports(surface, state, rates(state, time))) state.support = -1;
     }
     const auto rates_here = [&](const FlightState& s, double t) {
       const FlightRate free = rates(s, t);
@@ -120,11 +125,27 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
     for (int i = 0; i < 60 && touching - clear > 1e-12; ++i) {
       const double middle = 0.5 * (clear + touching);
       const FlightState trial = runge_kutta(state, time, middle, rates_here);
-      (gap(trial.position, body, surfaces[index]) > 0.0 ? clear : touching) = middle;
+      const double gap = surfaces[index].contact(trial.position).distance - body.radius;
+      (gap > 0.0 ? clear : touching) = middle;
     }
     state = runge_kutta(state, time, touching, rates_here);
     time += touching;
     bounce(state, body, surfaces, index);
+  }
+}
+
+/// The same for drag that may be stiff: `decay_rate(state, time)` is the rate [1/s] at which a
+/// difference of speed dies out, and no step is longer than half its inverse. As drag is quadratic
+/// the rate falls with the difference, so even a balloon in a hurricane needs few steps.
+template <class Rates, class DecayRate>
+void fly_stiffly(FlightState& state, double from, double to, const RoundBody& body,
+                 const std::vector<Surface>& surfaces, const Rates& rates,
+                 const DecayRate& decay_rate) {
+  for (double time = from; time < to;) {
+    const double stiffness = decay_rate(state, time) * (to - time);
+    const double end = stiffness <= 0.5 ? to : time + (to - time) * 0.5 / stiffness;
+    fly(state, time, end, body, surfaces, rates);
+    time = end;
   }
 }
 

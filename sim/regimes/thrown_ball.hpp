@@ -158,6 +158,7 @@ struct ThrownBall {
       report("velocity", "give either velocity or speed and angle_deg, not both");
     }
     if (angle_deg && !speed) report("angle_deg", "an angle needs a speed");
+    if (spin_decay > 0.0 && spin_decay < 0.1) report("spin_decay", "must be 0 or at least 0.1 s");
     if (spin && spin_rpm) report("spin_rpm", "give either spin or spin_rpm, not both");
   }
 };
@@ -181,10 +182,12 @@ class BallModel {
 
  private:
   FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
+  double drag_per_speed(const Environment& environment, double speed) const;  // k of −k |u| u [1/m]
 
   ThrownBall ball_;
   RoundBody round_;
   FlightState initial_;
+  double area_to_mass_;  // π r² / 2m [m²/kg]
 };
 
 }  // namespace ghtrack

@@ -54,7 +54,7 @@ struct Curve {
             {.unit = "m",
              .meaning = "length of the clothoids before and after the arc",
              .minimum = 0.0,
-             .maximum = 1e5});
+             .maximum = 5000.0});
   }
 
   template <class Report>
@@ -81,7 +81,7 @@ struct Clothoid {
              .meaning = "along the track",
              .required = true,
              .above = 0.0,
-             .maximum = 1e5});
+             .maximum = 5000.0});
     v.field("radius", &Clothoid::radius,
             {.unit = "m",
              .meaning = "at its end, negative to the right; left out: straight",

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -129,9 +131,9 @@ using DriveCommand =
 /// What the driver does from an instant or a place on.
 struct DrivePhase {
   static constexpr std::string_view about = "what the driver does from an instant or a place on";
-  std::optional<double> at;
-  std::optional<double> at_position;
-  DriveCommand command;
+  std::optional<double> at = std::nullopt;
+  std::optional<double> at_position = std::nullopt;
+  DriveCommand command = {};
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -375,8 +377,19 @@ struct Train {
 
   template <class Report>
   void check(Report&& report) const {
-    if (leading_mass && !(mass > *leading_mass || (cars == 1 && mass == *leading_mass))) {
+    if (leading_mass && !(mass > *leading_mass) && cars > 1) {
       report("leading_mass", "must be less than the mass of the whole train");
+    }
+    // Beyond these limits the equations of motion would need absurdly small steps.
+    if (davis_b + 300.0 * davis_c > 20.0 * mass) {
+      report("davis_c", "the resistance would stop this mass within a fraction of a second");
+    }
+    const double heaviest = leading_mass.value_or(0.0);
+    const double lightest =
+        cars > 1 ? std::min(leading_mass.value_or(mass), (mass - heaviest) / cars) : mass;
+    if (couplers &&
+        !(4.0 * std::max(couplers->stiffness / 1e3, couplers->damping) <= 1e3 * lightest)) {
+      report("couplers", "too stiff or too strongly damped for cars as light as these");
     }
   }
 };
@@ -390,6 +403,7 @@ class TrainModel {
     std::vector<double> speed;  // [m/s]
     int phase = -1;             // index of the drive phase; −1: before the first
     double phase_began = 0.0;   // [s]
+    bool stopping = false;      // the driver has begun to brake for a station
   };
 
   explicit TrainModel(const Train& train);
@@ -405,15 +419,34 @@ class TrainModel {
   void adopt(State&, const RigidBody&) const {}
 
  private:
-  struct Forces;  // on one car
+  struct Effort {                                       // what the driver demands of the train
+    double force = 0.0;                                 // traction [N]
+    double braking = 0.0;                               // deceleration by the brakes [m/s²]
+    std::optional<double> acceleration = std::nullopt;  // to be brought about by either [m/s²]
+  };
 
+  const DrivePhase* next_phase(const State& state) const;
+  bool reached_next_phase(const State& state) const;
+  void decide(State& state, double time) const;
+  double next_kink(const State& state, double time) const;
+  double build_up(const Brake& brake) const;
+  double traction_limit(double speed) const;
+  Effort effort(const State& state, double time) const;
+  Effort effort_for(double acceleration, double speed, double active, double passive) const;
+  double slope_force(double place, double mass) const;
+  double curve_drag(double place, double mass) const;
+  void add_coupler_forces(const State& state, std::vector<double>& forces) const;
+  std::vector<double> accelerations(const State& state, double time,
+                                    const std::vector<double>& directions) const;
+  static std::vector<double> directions_of(const State& state);
+  State moved(const State& state, double time, double step) const;
   double place_of(const State& state, int car) const;
-  double speed_of(const State& state, int car) const;
-  std::vector<double> accelerations(const State& state, double time) const;
+  static double hindered(double active, double passive, double direction, double inertia);
 
   Train train_;
   Track track_;
-  std::vector<double> masses_;  // per car that moves by itself [kg]
+  std::vector<double> masses_;  // of what moves by itself: the train, or each sprung car [kg]
+  double longest_step_ = std::numeric_limits<double>::infinity();  // [s]
 };
 
 }  // namespace ghtrack

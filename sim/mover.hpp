@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "sim/environment.hpp"
+#include "sim/regimes/regime.hpp"
+
+namespace ghtrack {
+
+/// The one place that folds over the list of regimes: the motion of a target of any regime.
+class Mover {
+  template <class Model>
+  struct StateOf {  // models may share a type of state
+    typename Model::State state;
+  };
+  template <class Variant>
+  struct Fold;
+  template <class... R>
+  struct Fold<std::variant<R...>> {
+    using Models = std::variant<typename R::Model...>;
+    using States = std::variant<std::monostate, StateOf<typename R::Model>...>;
+  };
+
+ public:
+  /// Empty until the target appears.
+  using State = Fold<Regime>::States;
+
+  explicit Mover(const Target& target);
+
+  std::uint64_t key() const { return key_; }
+  const ContactProperties& contact() const { return contact_; }
+  int objects() const;
+  int bodies() const;
+
+  /// Whether the target is there at this time.
+  bool present(double time) const { return time >= appears_ && time < disappears_; }
+
+  /// Integrates over [from, to] as far as the target is there; starts it if it appears.
+  void advance(State& state, const Environment& environment, double from, double to) const;
+
+  Kinematics kinematics(const State& state, const Environment& environment, double time,
+                        int object) const;
+  RigidBody body(const State& state, int index) const;
+  void adopt(State& state, const RigidBody& body) const;
+
+ private:
+  Fold<Regime>::Models model_;
+  std::uint64_t key_;
+  double appears_;
+  double disappears_;
+  ContactProperties contact_;
+};
+
+}  // namespace ghtrack

@@ -1,0 +1,102 @@
+#include "sim/regimes/balloon.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "sim/portable_math.hpp"
+
+namespace ghtrack {
+namespace {
+
+Balloon make_preset(std::string_view type, double radius, double envelope_mass) {
+  Balloon balloon;
+  balloon.type = type;
+  balloon.radius = radius;
+  balloon.envelope_mass = envelope_mass;
+  return balloon;
+}
+
+}  // namespace
+
+std::span<const Balloon> Balloon::presets() {
+  // Spheres of the volumes that balloon makers print: 0.25, 0.5, 1.5 and 16 cubic feet for latex of
+  // 9, 11, 16 and 36 inches; a pilot balloon (30 g) as meteorologists release it.
+  static const std::vector<Balloon> rows{
+      make_preset("latex-11-inch", 0.14, 0.0032), make_preset("latex-9-inch", 0.114, 0.0022),
+      make_preset("latex-16-inch", 0.2, 0.0064),  make_preset("latex-36-inch", 0.457, 0.060),
+      make_preset("pilot-30-g", 0.35, 0.030),
+  };
+  return rows;
+}
+
+BalloonModel::BalloonModel(const Balloon& balloon)
+    : balloon_(balloon),
+      round_{balloon.radius, 0.667, balloon.restitution, balloon.friction},
+      volume_(4.0 / 3.0 * portable::kPi * balloon.radius * balloon.radius * balloon.radius),
+      mass_(balloon.envelope_mass + balloon.gas_density * volume_) {}
+
+BalloonModel::State BalloonModel::start(const Environment&, double) const {
+  State state;
+  state.position = balloon_.position;
+  state.velocity = balloon_.velocity;
+  return state;
+}
+
+double BalloonModel::drag_per_speed(const Environment& environment) const {
+  const double density = environment.air().density;
+  const double area = portable::kPi * balloon_.radius * balloon_.radius;
+  return 0.5 * density * balloon_.drag * area / (mass_ + balloon_.added_mass * density * volume_);
+}
+
+FlightRate BalloonModel::rate(const FlightState& state, const Environment& environment,
+                              double time) const {
+  const double displaced = environment.air().density * volume_;
+  const double inertia = mass_ + balloon_.added_mass * displaced;
+  const Vec2 air = environment.wind().at(state.position, time) - state.velocity;
+  FlightRate rate;
+  rate.acceleration = drag_per_speed(environment) * air.norm() * air +
+                      (mass_ - displaced) / inertia * environment.gravity();
+  if (balloon_.fluid_acceleration) {
+    rate.acceleration += (1.0 + balloon_.added_mass) * displaced / inertia *
+                         environment.wind().material_derivative(state.position, time);
+  }
+  return rate;
+}
+
+void BalloonModel::advance(State& state, const Environment& environment, double from,
+                           double to) const {
+  const Wind& wind = environment.wind();
+  const double drag = drag_per_speed(environment);
+  wind.over_smooth_parts(from, to, [&](double begin, double end) {
+    fly_stiffly(
+        state, begin, end, round_, environment.surfaces(),
+        [&](const FlightState& s, double time) {
+          return rate(s, environment, Wind::inside(time, begin, end));
+        },
+        [&](const FlightState& s, double time) {
+          const Vec2 air = s.velocity - wind.at(s.position, Wind::inside(time, begin, end));
+          return 2.0 * drag * air.norm();
+        });
+  });
+}
+
+Kinematics BalloonModel::kinematics(const State& state, const Environment& environment, double time,
+                                    int) const {
+  return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
+}
+
+RigidBody BalloonModel::body(const State& state, int) const {
+  return {state.position, state.velocity, state.angle, state.spin};
+}
+
+ContactProperties BalloonModel::contact() const {
+  return {{Outline::Shape::kBalloon, 2.0 * balloon_.radius, 2.0 * balloon_.radius},
+          mass_,
+          round_.inertia,
+          balloon_.restitution,
+          balloon_.friction};
+}
+
+void BalloonModel::adopt(State& state, const RigidBody& body) const { adopt_flight(state, body); }
+
+}  // namespace ghtrack

@@ -1,0 +1,144 @@
+#include "sim/regimes/thrown_ball.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "sim/portable_math.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kDecaySpeed = 44.704;  // 100 miles per hour [m/s]
+
+ThrownBall make_preset(std::string_view type, double mass, double radius, double drag,
+                       LiftModel lift, double inertia, double restitution, double friction) {
+  ThrownBall ball;
+  ball.type = type;
+  ball.mass = mass;
+  ball.radius = radius;
+  ball.drag = drag;
+  ball.lift = lift;
+  ball.inertia = inertia;
+  ball.restitution = restitution;
+  ball.friction = friction;
+  ball.spin_decay = 0.0;
+  return ball;
+}
+
+double lift_coefficient(LiftModel model, double s) {
+  switch (model) {
+    case LiftModel::kNone:
+      return 0.0;
+    case LiftModel::kNathan2016:
+      return 1.120 * s / (0.583 + 2.333 * s);
+    case LiftModel::kNathanOld:
+      return s / (0.4 + 2.32 * s);
+    case LiftModel::kStepanek:
+      return s / (2.0 * s + 1.0);
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+std::span<const ThrownBall> ThrownBall::presets() {
+  // Drag: Nathan 2008 (baseball), Cross & Lindsey 2014 (tennis), Goff & Carré 2009 (soccer: the
+  // drag crisis), sphere at Re 1e5 (table tennis). Restitution: ITF rules (tennis), FIBA rules
+  // (basketball), ITTF rules (table tennis: 23 cm after 30 cm), usual values otherwise.
+  static const std::vector<ThrownBall> rows = [] {
+    std::vector<ThrownBall> balls{
+        make_preset("baseball", 0.145, 0.0366, 0.35, LiftModel::kNathan2016, 0.4, 0.55, 0.4),
+        make_preset("tennis", 0.0577, 0.0335, 0.507, LiftModel::kStepanek, 0.55, 0.745, 0.6),
+        make_preset("basketball", 0.624, 0.12, 0.54, LiftModel::kNathanOld, 0.667, 0.76, 0.6),
+        make_preset("soccer", 0.43, 0.11, 0.47, LiftModel::kNathanOld, 0.667, 0.8, 0.4),
+        make_preset("table-tennis", 0.0027, 0.02, 0.4, LiftModel::kNathanOld, 0.667, 0.88, 0.25),
+    };
+    balls[0].spin_decay = 30.0;
+    balls[3].drag_crisis = DragCrisis{};
+    return balls;
+  }();
+  return rows;
+}
+
+BallModel::BallModel(const ThrownBall& ball)
+    : ball_(ball),
+      round_{ball.radius, ball.inertia, ball.restitution, ball.friction},
+      area_to_mass_(portable::kPi * ball.radius * ball.radius / (2.0 * ball.mass)) {
+  initial_.position = ball.position;
+  if (ball.velocity) initial_.velocity = *ball.velocity;
+  if (ball.speed) {
+    const portable::SinCos direction =
+        portable::sin_cos_of_turns(ball.angle_deg.value_or(0.0) / 360.0);
+    initial_.velocity = *ball.speed * Vec2(direction.cos, direction.sin);
+  }
+  if (ball.spin) initial_.spin = *ball.spin;
+  if (ball.spin_rpm) initial_.spin = *ball.spin_rpm * 2.0 * portable::kPi / 60.0;
+}
+
+BallModel::State BallModel::start(const Environment&, double) const { return initial_; }
+
+double BallModel::drag_per_speed(const Environment& environment, double speed) const {
+  const double density = environment.air().density;
+  double drag = ball_.drag;
+  if (ball_.drag_crisis) {
+    const DragCrisis& crisis = *ball_.drag_crisis;
+    const double reynolds = density * 2.0 * ball_.radius * speed / environment.air().viscosity;
+    const double beyond = (reynolds - crisis.from) / (crisis.to - crisis.from);
+    drag += (crisis.drag - drag) * std::clamp(beyond, 0.0, 1.0);
+  }
+  return density * area_to_mass_ * drag;
+}
+
+FlightRate BallModel::rate(const FlightState& state, const Environment& environment,
+                           double time) const {
+  FlightRate rate{environment.gravity(), 0.0};
+  const Vec2 air = state.velocity - environment.wind().at(state.position, time);
+  const double speed = air.norm();
+  rate.acceleration -= drag_per_speed(environment, speed) * speed * air;
+  if (state.spin != 0.0 && speed > 0.0) {
+    const double s = ball_.radius * std::abs(state.spin) / speed;
+    const double lift = std::copysign(lift_coefficient(ball_.lift, s), state.spin);
+    rate.acceleration +=
+        environment.air().density * area_to_mass_ * lift * speed * Vec2(-air.y(), air.x());
+    if (ball_.spin_decay > 0.0) rate.spin = -state.spin * speed / (ball_.spin_decay * kDecaySpeed);
+  }
+  return rate;
+}
+
+void BallModel::advance(State& state, const Environment& environment, double from,
+                        double to) const {
+  const Wind& wind = environment.wind();
+  wind.over_smooth_parts(from, to, [&](double begin, double end) {
+    fly_stiffly(
+        state, begin, end, round_, environment.surfaces(),
+        [&](const FlightState& s, double time) {
+          return rate(s, environment, Wind::inside(time, begin, end));
+        },
+        [&](const FlightState& s, double time) {
+          const Vec2 air = s.velocity - wind.at(s.position, Wind::inside(time, begin, end));
+          const double speed = air.norm();
+          return 2.0 * drag_per_speed(environment, speed) * speed;
+        });
+  });
+}
+
+Kinematics BallModel::kinematics(const State& state, const Environment& environment, double time,
+                                 int) const {
+  return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
+}
+
+RigidBody BallModel::body(const State& state, int) const {
+  return {state.position, state.velocity, state.angle, state.spin};
+}
+
+ContactProperties BallModel::contact() const {
+  return {{Outline::Shape::kDisc, 2.0 * ball_.radius, 2.0 * ball_.radius},
+          ball_.mass,
+          ball_.inertia,
+          ball_.restitution,
+          ball_.friction};
+}
+
+void BallModel::adopt(State& state, const RigidBody& body) const { adopt_flight(state, body); }
+
+}  // namespace ghtrack

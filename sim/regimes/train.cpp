@@ -1,0 +1,329 @@
+#include "sim/regimes/train.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+#include "sim/portable_math.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kDriverTime = 2.0;      // in which a driver makes up a difference of speed [s]
+constexpr double kStationBraking = 0.9;  // part of the service brake that a driver plans with
+
+double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
+
+}  // namespace
+
+TrainModel::TrainModel(const Train& train)
+    : train_(train),
+      track_(train.track, train.position, train.heading_deg * portable::kPi / 180.0) {
+  if (!train.couplers) {
+    masses_ = {train.mass};
+    return;
+  }
+  const double leading = train.leading_mass.value_or(train.mass / train.cars);
+  masses_.assign(static_cast<std::size_t>(train.cars), leading);
+  for (std::size_t i = 1; i < masses_.size(); ++i) {
+    masses_[i] = (train.mass - leading) / (train.cars - 1);
+  }
+  // A quarter of the Runge-Kutta method's range of stability for the fastest spring and damper.
+  const double lightest = *std::min_element(masses_.begin(), masses_.end()) * train.rotating_mass;
+  longest_step_ = std::min(0.35 / std::sqrt(4.0 * train.couplers->stiffness / lightest),
+                           0.35 / (4.0 * train.couplers->damping / lightest + 1e-9));
+}
+
+TrainModel::State TrainModel::start(const Environment&, double) const {
+  State state;
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    state.place.push_back(train_.start - static_cast<double>(i) * train_.car_length);
+    state.speed.push_back(train_.speed);
+  }
+  return state;
+}
+
+const DrivePhase* TrainModel::next_phase(const State& state) const {
+  const auto next = static_cast<std::size_t>(state.phase + 1);
+  return next < train_.drive.size() ? &train_.drive[next] : nullptr;
+}
+
+bool TrainModel::reached_next_phase(const State& state) const {
+  const DrivePhase* next = next_phase(state);
+  return next != nullptr && next->at_position && state.place[0] >= *next->at_position;
+}
+
+void TrainModel::decide(State& state, double time) const {
+  for (const DrivePhase* next = next_phase(state); next != nullptr; next = next_phase(state)) {
+    const bool due = next->at ? time >= *next->at : reached_next_phase(state);
+    if (!due) break;
+    ++state.phase;
+    state.phase_began = time;
+    state.stopping = false;
+  }
+  if (state.phase < 0 || state.stopping) return;
+  const DrivePhase& phase = train_.drive[static_cast<std::size_t>(state.phase)];
+  if (const auto* stop = std::get_if<StationStop>(&phase.command)) {
+    const double left = stop->position - state.place[0];
+    const double speed = state.speed[0];
+    state.stopping = speed * speed >= 2.0 * left * kStationBraking * train_.service_brake;
+  }
+}
+
+double TrainModel::next_kink(const State& state, double time) const {
+  double kink = kNever;
+  const DrivePhase* next = next_phase(state);
+  if (next != nullptr && next->at) kink = *next->at;
+  double built_up = 0.0;
+  if (state.phase >= 0) {
+    const DriveCommand& command = train_.drive[static_cast<std::size_t>(state.phase)].command;
+    if (const auto* force = std::get_if<Force>(&command)) built_up = force->ramp;
+    if (const auto* brake = std::get_if<Brake>(&command)) built_up = build_up(*brake);
+  }
+  if (state.phase_began + built_up > time) kink = std::min(kink, state.phase_began + built_up);
+  return kink;
+}
+
+double TrainModel::build_up(const Brake& brake) const {
+  return brake.brake == BrakeKind::kService ? train_.service_brake_build_up
+                                            : train_.emergency_brake_build_up;
+}
+
+double TrainModel::traction_limit(double speed) const {
+  // Curtius & Kniffler 1944, speed in km/h.
+  const double adhesion = 7.5 / (3.6 * std::abs(speed) + 44.0) + 0.161;
+  const double grip = adhesion * train_.adhesion * train_.adhesive_mass * kStandardGravity;
+  const double by_power = speed == 0.0 ? kNever : train_.max_power / std::abs(speed);
+  return std::min({train_.max_force, by_power, grip});
+}
+
+TrainModel::Effort TrainModel::effort(const State& state, double time) const {
+  const double speed = state.speed[0];
+  const auto since = [&](double rise) {
+    return rise > 0.0 ? std::clamp((time - state.phase_began) / rise, 0.0, 1.0) : 1.0;
+  };
+  const auto towards = [&](double wanted) {
+    const double change = (wanted - speed) / kDriverTime;
+    return Effort{.acceleration = std::clamp(change, -train_.service_brake, train_.service_brake)};
+  };
+  if (state.phase < 0) return {.acceleration = 0.0};
+
+  const DriveCommand& command = train_.drive[static_cast<std::size_t>(state.phase)].command;
+  if (const auto* hold = std::get_if<Accelerate>(&command)) {
+    if (hold->acceleration < 0.0 && speed <= 0.0) return {.braking = train_.service_brake};
+    return {.acceleration = hold->acceleration};
+  }
+  if (const auto* traction = std::get_if<Traction>(&command)) {
+    return {.force = traction->fraction * traction_limit(speed)};
+  }
+  if (const auto* force = std::get_if<Force>(&command)) {
+    return {.force = force->force * since(force->ramp)};
+  }
+  if (const auto* brake = std::get_if<Brake>(&command)) {
+    const double full =
+        brake->brake == BrakeKind::kService ? train_.service_brake : train_.emergency_brake;
+    return {.braking = full * since(build_up(*brake))};
+  }
+  if (const auto* target = std::get_if<TargetSpeed>(&command)) return towards(target->speed);
+  if (const auto* stop = std::get_if<StationStop>(&command)) {
+    const double left = stop->position - state.place[0];
+    if (!state.stopping) return {.acceleration = 0.0};
+    if (left <= 0.01 || speed < 0.05) return {.braking = train_.service_brake};
+    return {.acceleration = -std::min(0.5 * speed * speed / left, train_.emergency_brake)};
+  }
+  return {};  // coasting
+}
+
+double TrainModel::slope_force(double place, double mass) const {
+  double force = 0.0;
+  for (const Grade& grade : train_.grades) {
+    if (place >= grade.from && place < grade.to) force -= mass * kStandardGravity * grade.grade;
+  }
+  return force;
+}
+
+double TrainModel::curve_drag(double place, double mass) const {
+  double curvature = std::abs(track_.curvature(place));
+  for (const SchematicCurve& curve : train_.schematic_curves) {
+    if (place >= curve.from && place < curve.to) curvature += 1.0 / curve.radius;
+  }
+  return 0.01 * train_.curve_resistance * curvature * mass;  // 0.01 k/R kN per tonne
+}
+
+/// dv/dt of a body that `active` forces drive and `passive` ones, like friction, hinder from moving
+/// in this direction: +1, −1, or 0 for a body that stands.
+double TrainModel::hindered(double active, double passive, double direction, double inertia) {
+  if (direction != 0.0) return (active - direction * passive) / inertia;
+  if (std::abs(active) <= passive) return 0.0;
+  return (active - std::copysign(passive, active)) / inertia;
+}
+
+TrainModel::Effort TrainModel::effort_for(double acceleration, double speed, double active,
+                                          double passive) const {
+  const double inertia = train_.mass * train_.rotating_mass;
+  const double direction = speed != 0.0 ? sign(speed) : sign(acceleration);
+  const double needed = inertia * acceleration + direction * passive - active;
+  if (needed * direction < 0.0) {
+    return {.braking = std::min(std::abs(needed) / inertia, train_.emergency_brake)};
+  }
+  const double limit = traction_limit(speed);
+  return {.force = std::clamp(needed, -limit, limit)};
+}
+
+std::vector<double> TrainModel::accelerations(const State& state, double time,
+                                              const std::vector<double>& directions) const {
+  const std::size_t units = masses_.size();
+  std::vector<double> active(units, 0.0);
+  std::vector<double> passive(units, 0.0);
+  for (std::size_t i = 0; i < units; ++i) {
+    const double share = masses_[i] / train_.mass;
+    const double v = std::abs(state.speed[i]);
+    passive[i] = share * (train_.davis_a + train_.davis_b * v + train_.davis_c * v * v);
+    const int cars = units == 1 ? train_.cars : 1;  // a rigid train lies on all its cars' places
+    for (int car = 0; car < cars; ++car) {
+      const double place = state.place[i] - car * train_.car_length;
+      active[i] += slope_force(place, masses_[i] / cars);
+      passive[i] += curve_drag(place, masses_[i] / cars);
+    }
+  }
+
+  Effort now = effort(state, time);
+  if (now.acceleration) {
+    const double active_sum = std::accumulate(active.begin(), active.end(), 0.0);
+    const double passive_sum = std::accumulate(passive.begin(), passive.end(), 0.0);
+    if (*now.acceleration == 0.0 && state.speed[0] == 0.0) {
+      now = {.braking = train_.service_brake};  // a standing train holds its brakes
+    } else {
+      now = effort_for(*now.acceleration, state.speed[0], active_sum, passive_sum);
+    }
+  }
+  active[0] += now.force;
+  if (train_.couplers) add_coupler_forces(state, active);
+
+  std::vector<double> result(units);
+  for (std::size_t i = 0; i < units; ++i) {
+    const double inertia = masses_[i] * train_.rotating_mass;
+    result[i] = hindered(active[i], passive[i] + now.braking * inertia, directions[i], inertia);
+  }
+  return result;
+}
+
+std::vector<double> TrainModel::directions_of(const State& state) {
+  std::vector<double> directions;
+  for (const double speed : state.speed) directions.push_back(sign(speed));
+  return directions;
+}
+
+void TrainModel::add_coupler_forces(const State& state, std::vector<double>& forces) const {
+  const Couplers& couplers = *train_.couplers;
+  for (std::size_t i = 0; i + 1 < forces.size(); ++i) {
+    const double stretch = state.place[i] - state.place[i + 1] - train_.car_length;
+    const double beyond = std::abs(stretch) - couplers.slack;
+    if (beyond <= 0.0) continue;
+    const double pull = couplers.stiffness * std::copysign(beyond, stretch) +
+                        couplers.damping * (state.speed[i] - state.speed[i + 1]);
+    forces[i] -= pull;
+    forces[i + 1] += pull;
+  }
+}
+
+TrainModel::State TrainModel::moved(const State& state, double time, double step) const {
+  const auto shifted = [&](const std::vector<double>& speed, const std::vector<double>& rate,
+                           double h) {
+    State next = state;
+    for (std::size_t i = 0; i < rate.size(); ++i) {
+      next.place[i] += h * speed[i];
+      next.speed[i] += h * rate[i];
+    }
+    return next;
+  };
+  // Friction keeps its direction during the step: the equations stay smooth up to the instant of
+  // standing still, where the step will be cut.
+  const std::vector<double> directions = directions_of(state);
+  const std::vector<double> k1 = accelerations(state, time, directions);
+  const State s2 = shifted(state.speed, k1, 0.5 * step);
+  const std::vector<double> k2 = accelerations(s2, time + 0.5 * step, directions);
+  const State s3 = shifted(s2.speed, k2, 0.5 * step);
+  const std::vector<double> k3 = accelerations(s3, time + 0.5 * step, directions);
+  const State s4 = shifted(s3.speed, k3, step);
+  const std::vector<double> k4 = accelerations(s4, time + step, directions);
+  State next = state;
+  for (std::size_t i = 0; i < k1.size(); ++i) {
+    next.place[i] +=
+        step / 6.0 * (state.speed[i] + 2.0 * s2.speed[i] + 2.0 * s3.speed[i] + s4.speed[i]);
+    next.speed[i] += step / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+  }
+  return next;
+}
+
+void TrainModel::advance(State& state, const Environment&, double from, double to) const {
+  double time = from;
+  while (time < to) {
+    decide(state, time);
+    const double end = std::min({to, next_kink(state, time), time + longest_step_});
+    State next = moved(state, time, end - time);
+    // Where a car comes to a stand, or the first reaches the place of the next phase, the
+    // equations change: the step ends there.
+    double step = end - time;
+    const auto event = [&](const State& s) {
+      return reached_next_phase(s) || (s.speed[0] * state.speed[0] < 0.0 && masses_.size() == 1);
+    };
+    if (event(next)) {
+      double before = 0.0;
+      double after = step;
+      while (after - before > 1e-9) {
+        const double middle = 0.5 * (before + after);
+        (event(moved(state, time, middle)) ? after : before) = middle;
+      }
+      step = after;
+      next = moved(state, time, step);
+    }
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+      if (next.speed[i] * state.speed[i] >= 0.0) continue;
+      State standing = next;
+      standing.speed[i] = 0.0;
+      if (masses_.size() == 1 ||
+          accelerations(standing, time + step, directions_of(standing))[i] == 0.0)
+        next = standing;
+    }
+    state = next;
+    time = step == end - time ? end : time + step;
+  }
+}
+
+double TrainModel::place_of(const State& state, int car) const {
+  if (masses_.size() > 1) return state.place[static_cast<std::size_t>(car)];
+  return state.place[0] - car * train_.car_length;
+}
+
+Kinematics TrainModel::kinematics(const State& state, const Environment&, double time,
+                                  int object) const {
+  const std::size_t unit = masses_.size() > 1 ? static_cast<std::size_t>(object) : 0;
+  State now = state;
+  decide(now, time);
+  const double speed = now.speed[unit];
+  const TrackPoint point = track_.at(place_of(now, object));
+  const portable::SinCos heading = portable::sin_cos(point.heading);
+  const Vec2 forwards(heading.cos, heading.sin);
+  const Vec2 left(-heading.sin, heading.cos);
+  return {point.position, speed * forwards,
+          accelerations(now, time, directions_of(now))[unit] * forwards +
+              speed * speed * point.curvature * left};
+}
+
+RigidBody TrainModel::body(const State& state, int index) const {
+  const std::size_t unit = masses_.size() > 1 ? static_cast<std::size_t>(index) : 0;
+  const TrackPoint point = track_.at(place_of(state, index));
+  const portable::SinCos heading = portable::sin_cos(point.heading);
+  return {point.position, state.speed[unit] * Vec2(heading.cos, heading.sin), point.heading,
+          state.speed[unit] * point.curvature};
+}
+
+ContactProperties TrainModel::contact() const {
+  return {{Outline::Shape::kBox, 0.96 * train_.car_length, train_.car_width}, 0.0, 0.0, 0.3, 0.3};
+}
+
+}  // namespace ghtrack

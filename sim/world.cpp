@@ -1,0 +1,237 @@
+#include "sim/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/collision.hpp"
+#include "sim/mover.hpp"
+#include "sim/neighbours.hpp"
+#include "sim/random.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kMargin = 0.02;   // around swept boxes [m]
+constexpr double kInstant = 1e-9;  // two instants closer than this are one [s]
+
+std::string_view kind_of(const Regime& regime) {
+  return std::visit([](const auto& r) { return std::decay_t<decltype(r)>::kind; }, regime);
+}
+
+/// Where a round target begins; trains are not round.
+struct Beginning {
+  std::size_t target;
+  double appears;
+  Vec2 position;
+  double radius;
+};
+
+std::vector<Beginning> beginnings_of(const std::vector<Target>& targets) {
+  std::vector<Beginning> beginnings;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    std::visit(
+        [&](const auto& motion) {
+          if constexpr (requires { motion.radius; }) {
+            beginnings.push_back({i, targets[i].appears, motion.position, motion.radius});
+          }
+        },
+        targets[i].motion);
+  }
+  return beginnings;
+}
+
+SweptBox swept_box(const ContactProperties& contact, const RigidBody& before,
+                   const RigidBody& after, int owner) {
+  const Vec2 margin =
+      Vec2::Constant(kMargin + 0.5 * std::hypot(contact.outline.length,
+                                                contact.outline.shape == Outline::Shape::kBox
+                                                    ? contact.outline.width
+                                                    : 0.0));
+  return {before.position.cwiseMin(after.position) - margin,
+          before.position.cwiseMax(after.position) + margin, contact.mass > 0.0, owner};
+}
+
+}  // namespace
+
+void name_targets(std::vector<Target>& targets) {
+  std::set<std::string> taken;
+  for (const Target& target : targets) taken.insert(target.name);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (!targets[i].name.empty()) continue;
+    const std::string kind(kind_of(targets[i].motion));
+    int number = 1;
+    for (std::size_t j = 0; j < i; ++j) number += kind_of(targets[j].motion) == kind;
+    while (taken.contains(kind + " " + std::to_string(number))) ++number;
+    targets[i].name = kind + " " + std::to_string(number);
+    taken.insert(targets[i].name);
+  }
+}
+
+std::vector<TargetProblem> find_problems(const std::vector<Target>& targets) {
+  std::vector<TargetProblem> problems;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (!targets[i].name.empty() && !names.insert(targets[i].name).second) {
+      problems.push_back({i, "the name '" + targets[i].name + "' is taken: names must be unique"});
+    }
+  }
+  // Bodies that begin inside each other would be flung apart, and many of them stop Box2D for good.
+  std::vector<Beginning> beginnings = beginnings_of(targets);
+  std::sort(beginnings.begin(), beginnings.end(), [](const Beginning& a, const Beginning& b) {
+    return std::pair(a.position.x() - a.radius, a.target) <
+           std::pair(b.position.x() - b.radius, b.target);
+  });
+  for (std::size_t i = 0; i < beginnings.size(); ++i) {
+    const Beginning& a = beginnings[i];
+    for (std::size_t j = i + 1; j < beginnings.size(); ++j) {
+      const Beginning& b = beginnings[j];
+      if (b.position.x() - b.radius > a.position.x() + a.radius) break;
+      if (a.appears != b.appears) continue;
+      if ((a.position - b.position).norm() >= 0.9 * (a.radius + b.radius)) continue;
+      const auto [first, second] = std::minmax({a.target, b.target});
+      problems.push_back({second, "begins inside targets[" + std::to_string(first) +
+                                      "]: place them apart or let one appear later"});
+      break;
+    }
+  }
+  return problems;
+}
+
+/// Everything that a step needs, and the targets' states.
+struct World::Scenery {
+  Environment environment;
+  double rate;
+  std::vector<Mover> movers;
+  std::vector<Mover::State> states;
+  std::int64_t step = 0;  // the states hold at step / rate
+  double last_sample = 0.0;
+
+  void advance(std::vector<Mover::State>& moved, double from, double to) const;
+  void settle_contacts(const std::vector<Mover::State>& before, std::vector<Mover::State>& after,
+                       double from, double to) const;
+  TruthSnapshot snapshot(const std::vector<Mover::State>& at, double time) const;
+};
+
+void World::Scenery::advance(std::vector<Mover::State>& moved, double from, double to) const {
+  const std::vector<Mover::State> before = moved;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    movers[i].advance(moved[i], environment, from, to);
+  }
+  settle_contacts(before, moved, from, to);
+}
+
+void World::Scenery::settle_contacts(const std::vector<Mover::State>& before,
+                                     std::vector<Mover::State>& after, double from,
+                                     double to) const {
+  std::vector<CollisionBody> bodies;
+  std::vector<SweptBox> boxes;
+  bool any_yields = false;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    if (!movers[i].present(from) || std::holds_alternative<std::monostate>(before[i])) continue;
+    const ContactProperties& contact = movers[i].contact();
+    any_yields = any_yields || contact.mass > 0.0;
+    for (int part = 0; part < movers[i].bodies(); ++part) {
+      bodies.push_back({contact, movers[i].body(before[i], part), movers[i].body(after[i], part)});
+      boxes.push_back(
+          swept_box(contact, bodies.back().before, bodies.back().after, static_cast<int>(i)));
+    }
+  }
+  if (!any_yields || boxes.size() < 2) return;
+
+  const auto by_name = [&](std::size_t a, std::size_t b) {
+    const auto name = [&](std::size_t i) {
+      return std::pair(movers[static_cast<std::size_t>(boxes[i].owner)].key(), i);
+    };
+    return name(a) < name(b);
+  };
+  for (Cluster& cluster : find_clusters(boxes)) {
+    // In an order that does not depend on what else is in the world.
+    std::sort(cluster.yielding.begin(), cluster.yielding.end(), by_name);
+    std::sort(cluster.unyielding.begin(), cluster.unyielding.end(), by_name);
+    std::vector<CollisionBody> meeting;
+    for (const std::size_t i : cluster.yielding) meeting.push_back(bodies[i]);
+    for (const std::size_t i : cluster.unyielding) meeting.push_back(bodies[i]);
+    const std::vector<bool> hit = collide(meeting, environment.surfaces(), to - from);
+    for (std::size_t i = 0; i < cluster.yielding.size(); ++i) {
+      if (!hit[i]) continue;
+      const auto owner = static_cast<std::size_t>(boxes[cluster.yielding[i]].owner);
+      movers[owner].adopt(after[owner], meeting[i].after);
+    }
+  }
+}
+
+TruthSnapshot World::Scenery::snapshot(const std::vector<Mover::State>& at, double time) const {
+  TruthSnapshot truth{time, {}, {}};
+  ObjectId id = 0;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    const ObjectId first = id;
+    id += movers[i].objects();
+    if (!movers[i].present(time) || std::holds_alternative<std::monostate>(at[i])) continue;
+    for (int object = 0; object < movers[i].objects(); ++object) {
+      const Kinematics now = movers[i].kinematics(at[i], environment, time, object);
+      if (!(now.position.allFinite() && now.velocity.allFinite() && now.acceleration.allFinite())) {
+        throw std::runtime_error("the motion of target " + std::to_string(i) + " became infinite");
+      }
+      truth.objects.push_back({first + object, now.position, now.velocity, now.acceleration});
+    }
+    for (int part = 0; part < movers[i].bodies(); ++part) {
+      const RigidBody body = movers[i].body(at[i], part);
+      const ObjectId owner = first + (movers[i].objects() > 1 ? part : 0);
+      truth.bodies.push_back({owner, body.position, body.angle});
+    }
+  }
+  return truth;
+}
+
+World::World(const WorldConfig& config, std::uint64_t seed)
+    : scenery_(std::make_unique<Scenery>(
+          Scenery{Environment(config.environment, seed), config.physics.rate, {}, {}})) {
+  std::vector<Target> targets = config.targets;
+  name_targets(targets);
+  const std::vector<TargetProblem> problems = find_problems(targets);
+  if (!problems.empty()) {
+    throw std::invalid_argument("targets[" + std::to_string(problems.front().target) +
+                                "]: " + problems.front().message);
+  }
+  for (const Target& target : targets) {
+    const Mover& mover = scenery_->movers.emplace_back(target);
+    scenery_->states.emplace_back();
+    mover.advance(scenery_->states.back(), scenery_->environment, 0.0, 0.0);
+    for (int part = 0; part < mover.objects(); ++part) {
+      const std::string name =
+          part == 0 ? target.name : target.name + " car " + std::to_string(part + 1);
+      const std::string kind(kind_of(target.motion));
+      objects_.push_back({static_cast<ObjectId>(objects_.size()), name, kind, kind, key_of(name),
+                          mover.contact().outline});
+    }
+  }
+}
+
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+const Environment& World::environment() const { return scenery_->environment; }
+
+TruthSnapshot World::sample(double time) {
+  Scenery& scenery = *scenery_;
+  if (!(time >= scenery.last_sample)) {
+    throw std::invalid_argument("the truth was asked for at a time before that of the last sample");
+  }
+  scenery.last_sample = time;
+  const auto wanted = static_cast<std::int64_t>(std::floor((time + kInstant) * scenery.rate));
+  for (; scenery.step < wanted; ++scenery.step) {
+    scenery.advance(scenery.states, static_cast<double>(scenery.step) / scenery.rate,
+                    static_cast<double>(scenery.step + 1) / scenery.rate);
+  }
+  const double now = static_cast<double>(scenery.step) / scenery.rate;
+  if (time - now <= kInstant) return scenery.snapshot(scenery.states, time);
+  std::vector<Mover::State> between = scenery.states;
+  scenery.advance(between, now, time);
+  return scenery.snapshot(between, time);
+}
+
+}  // namespace ghtrack
