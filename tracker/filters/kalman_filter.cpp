@@ -1,6 +1,7 @@
 #include "tracker/filters/kalman_filter.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -120,13 +121,12 @@ bool KalmanFilter<Order, D>::update(const Vector& z, const Matrix& covariance) {
   const Matrix inverse = s.inverse();
   const double nis = residual.dot(inverse * residual);
 
-  // A residual beyond the limit speaks of an outlier: its error is taken to be larger, so that its
-  // pull does not grow any further (Huber 1964).
-  const double distance = std::sqrt(nis);
-  const bool doubted = distance > model_.huber;
-  const Matrix r = doubted ? Matrix(covariance * (distance / model_.huber)) : covariance;
-  const Matrix gain_inverse = doubted ? Matrix(Matrix(predicted + r).inverse()) : inverse;
-  const Eigen::Matrix<double, kStates, D> gain = covariance_.template leftCols<D>() * gain_inverse;
+  // A residual beyond the limit speaks of an outlier: its error is taken to be as much larger as
+  // it takes for the pull of the limit itself (Huber 1964).
+  const double doubt = std::max(1.0, std::sqrt(nis) / model_.huber);
+  const Matrix r = doubt > 1.0 ? Matrix(doubt * s - predicted) : covariance;
+  const Eigen::Matrix<double, kStates, D> gain =
+      covariance_.template leftCols<D>() * (inverse / doubt);
 
   const Eigen::Matrix<double, kStates, 1> change = gain * residual;
   Kinematics<D> next = estimate_;

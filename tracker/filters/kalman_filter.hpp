@@ -20,8 +20,7 @@ struct KalmanModel {
   double process_intensity = 1.0;     // see process_noise()
   double initial_speed = 0.0;         // 1-sigma velocity per axis at first sight [m/s]
   double initial_acceleration = 0.0;  // the same for the acceleration [m/s²]
-  double huber =
-      std::numeric_limits<double>::infinity();  // residuals past it are doubted, in sigmas
+  double huber = std::numeric_limits<double>::infinity();  // longest pull of a residual, in sigmas
 };
 
 /// Kalman filter of position measurements on D axes under constant velocity (Order 1) or constant
