@@ -44,7 +44,7 @@ void Mover::advance(State& state, const Environment& environment, double from, d
       model_);
 }
 
-Kinematics Mover::kinematics(const State& state, const Environment& environment, double time,
+PlanarMotion Mover::kinematics(const State& state, const Environment& environment, double time,
                              int object) const {
   return std::visit(
       [&]<class Model>(const Model& model) {

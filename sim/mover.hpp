@@ -41,7 +41,7 @@ class Mover {
   /// Integrates over [from, to] as far as the target is there; starts it if it appears.
   void advance(State& state, const Environment& environment, double from, double to) const;
 
-  Kinematics kinematics(const State& state, const Environment& environment, double time,
+  PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                         int object) const;
   RigidBody body(const State& state, int index) const;
   void adopt(State& state, const RigidBody& body) const;

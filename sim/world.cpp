@@ -171,7 +171,7 @@ TruthSnapshot World::Scenery::snapshot(const std::vector<Mover::State>& at, doub
     id += movers[i].objects();
     if (!movers[i].present(time) || std::holds_alternative<std::monostate>(at[i])) continue;
     for (int object = 0; object < movers[i].objects(); ++object) {
-      const Kinematics now = movers[i].kinematics(at[i], environment, time, object);
+      const PlanarMotion now = movers[i].kinematics(at[i], environment, time, object);
       if (!(now.position.allFinite() && now.velocity.allFinite() && now.acceleration.allFinite())) {
         throw std::runtime_error("the motion of target " + std::to_string(i) + " became infinite");
       }

@@ -80,7 +80,7 @@ void BalloonModel::advance(State& state, const Environment& environment, double 
   });
 }
 
-Kinematics BalloonModel::kinematics(const State& state, const Environment& environment, double time,
+PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment, double time,
                                     int) const {
   return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
 }

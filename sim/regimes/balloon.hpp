@@ -90,7 +90,7 @@ class BalloonModel {
   State start(const Environment& environment, double time) const;
   void advance(State& state, const Environment& environment, double from, double to) const;
   int objects() const { return 1; }
-  Kinematics kinematics(const State& state, const Environment& environment, double time,
+  PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                         int object) const;
   int bodies() const { return 1; }
   RigidBody body(const State& state, int index) const;

@@ -65,7 +65,7 @@ void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface
   }
 }
 
-Kinematics flight_kinematics(const FlightState& state, const FlightRate& free,
+PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
                              const RoundBody& body, const std::vector<Surface>& surfaces) {
   FlightRate rate = free;
   if (state.support >= 0) {

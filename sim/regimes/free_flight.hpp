@@ -50,7 +50,7 @@ void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface
             std::size_t surface);
 
 /// What a sensor may see of a body with these rates of free flight.
-Kinematics flight_kinematics(const FlightState& state, const FlightRate& free,
+PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
                              const RoundBody& body, const std::vector<Surface>& surfaces);
 
 /// Takes over what a collision has made of the body.

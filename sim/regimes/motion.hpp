@@ -9,7 +9,7 @@
 namespace ghtrack {
 
 /// Where an object is and how it moves, world frame.
-struct Kinematics {
+struct PlanarMotion {
   Vec2 position = Vec2::Zero();      // [m]
   Vec2 velocity = Vec2::Zero();      // [m/s]
   Vec2 acceleration = Vec2::Zero();  // [m/s²]
@@ -48,7 +48,7 @@ concept IsMotionModel = std::copyable<typename M::State> &&
   { model.start(environment, time) } -> std::same_as<typename M::State>;
   { model.advance(state, environment, time, time) } -> std::same_as<void>;
   { model.objects() } -> std::same_as<int>;
-  { model.kinematics(state, environment, time, index) } -> std::same_as<Kinematics>;
+  { model.kinematics(state, environment, time, index) } -> std::same_as<PlanarMotion>;
   { model.bodies() } -> std::same_as<int>;
   { model.body(state, index) } -> std::same_as<RigidBody>;
   { model.contact() } -> std::same_as<ContactProperties>;

@@ -122,7 +122,7 @@ void BallModel::advance(State& state, const Environment& environment, double fro
   });
 }
 
-Kinematics BallModel::kinematics(const State& state, const Environment& environment, double time,
+PlanarMotion BallModel::kinematics(const State& state, const Environment& environment, double time,
                                  int) const {
   return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
 }

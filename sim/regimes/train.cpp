@@ -299,7 +299,7 @@ double TrainModel::place_of(const State& state, int car) const {
   return state.place[0] - car * train_.car_length;
 }
 
-Kinematics TrainModel::kinematics(const State& state, const Environment&, double time,
+PlanarMotion TrainModel::kinematics(const State& state, const Environment&, double time,
                                   int object) const {
   const std::size_t unit = masses_.size() > 1 ? static_cast<std::size_t>(object) : 0;
   State now = state;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "sim/regimes/motion.hpp"
-#include "sim/regimes/track.hpp"
+#include "sim/regimes/rail_line.hpp"
 
 namespace ghtrack {
 
@@ -411,7 +411,7 @@ class TrainModel {
   State start(const Environment& environment, double time) const;
   void advance(State& state, const Environment& environment, double from, double to) const;
   int objects() const { return train_.track_every_car ? train_.cars : 1; }
-  Kinematics kinematics(const State& state, const Environment& environment, double time,
+  PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                         int object) const;
   int bodies() const { return train_.cars; }
   RigidBody body(const State& state, int index) const;
@@ -444,7 +444,7 @@ class TrainModel {
   static double hindered(double active, double passive, double direction, double inertia);
 
   Train train_;
-  Track track_;
+  RailLine track_;
   std::vector<double> masses_;  // of what moves by itself: the train, or each sprung car [kg]
   double longest_step_ = std::numeric_limits<double>::infinity();  // [s]
 };

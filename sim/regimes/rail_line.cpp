@@ -1,4 +1,4 @@
-#include "sim/regimes/track.hpp"
+#include "sim/regimes/rail_line.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ Vec2 mean_direction(double heading, double curvature, double curvature_rate, dou
 
 }  // namespace
 
-Track::Track(const std::vector<TrackElement>& elements, const Vec2& origin, double heading) {
+RailLine::RailLine(const std::vector<TrackElement>& elements, const Vec2& origin, double heading) {
   pieces_.push_back({0.0, 0.0, {origin, heading, 0.0}, 0.0});
   double curvature = 0.0;
   for (const TrackElement& element : elements) {
@@ -73,7 +73,7 @@ Track::Track(const std::vector<TrackElement>& elements, const Vec2& origin, doub
   append(0.0, 0.0, 0.0);  // the endless straight beyond
 }
 
-void Track::append(double length, double from_curvature, double to_curvature) {
+void RailLine::append(double length, double from_curvature, double to_curvature) {
   const Piece& last = pieces_.back();
   Piece piece{length_, length, along(last, last.length), 0.0};
   piece.start.curvature = from_curvature;
@@ -82,7 +82,7 @@ void Track::append(double length, double from_curvature, double to_curvature) {
   length_ += length;
 }
 
-TrackPoint Track::along(const Piece& piece, double distance) {
+TrackPoint RailLine::along(const Piece& piece, double distance) {
   const double heading = piece.start.heading;
   const double curvature = piece.start.curvature;
   const Vec2 direction = mean_direction(heading, curvature, piece.curvature_rate, distance);
@@ -91,19 +91,19 @@ TrackPoint Track::along(const Piece& piece, double distance) {
           curvature + distance * piece.curvature_rate};
 }
 
-const Track::Piece& Track::piece_at(double arc_length) const {
+const RailLine::Piece& RailLine::piece_at(double arc_length) const {
   // The first piece, of no length, is the straight before the beginning.
   const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), arc_length,
                                       [](double s, const Piece& piece) { return s < piece.begin; });
   return *(after - 1);
 }
 
-TrackPoint Track::at(double arc_length) const {
+TrackPoint RailLine::at(double arc_length) const {
   const Piece& piece = piece_at(arc_length);
   return along(piece, arc_length - piece.begin);
 }
 
-double Track::curvature(double arc_length) const {
+double RailLine::curvature(double arc_length) const {
   const Piece& piece = piece_at(arc_length);
   return piece.start.curvature + (arc_length - piece.begin) * piece.curvature_rate;
 }

@@ -105,10 +105,10 @@ struct TrackPoint {
 };
 
 /// A line of straights, arcs and clothoids, by arc length; straight before and after its ends.
-class Track {
+class RailLine {
  public:
   /// @param heading  direction at arc length 0 [rad]
-  Track(const std::vector<TrackElement>& elements, const Vec2& origin, double heading);
+  RailLine(const std::vector<TrackElement>& elements, const Vec2& origin, double heading);
 
   TrackPoint at(double arc_length) const;
 
