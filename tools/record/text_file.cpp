@@ -1,0 +1,204 @@
+#include "tools/record/text_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "tools/record/errors.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr std::int64_t kLongestFile = std::int64_t{256} << 20;
+constexpr std::int64_t kLargestWhole = std::int64_t{1} << 53;
+
+/// Closes a file descriptor at the end of its scope.
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& path)
+      : value_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError(path.string() + ": error: " + reason);
+}
+
+/// Length of the character at the start of the text if it is one that a text may hold: UTF-8
+/// without overlong forms and surrogates, no control character but tab and line ends; else 0.
+std::size_t text_character(const unsigned char* at, std::size_t left) {
+  const unsigned char lead = at[0];
+  if (lead < 0x80)
+    return lead >= 0x20 && lead != 0x7f ? 1 : lead == '\t' || lead == '\n' || lead == '\r';
+  const auto continues = [&](std::size_t i) { return i < left && (at[i] & 0xc0) == 0x80; };
+  if (lead < 0xc2 || !continues(1)) return 0;
+  if (lead < 0xe0) return 2;
+  if (!continues(2)) return 0;
+  if (lead < 0xf0) {
+    const bool overlong = lead == 0xe0 && at[1] < 0xa0;
+    const bool surrogate = lead == 0xed && at[1] >= 0xa0;
+    return overlong || surrogate ? 0 : 3;
+  }
+  if (lead > 0xf4 || !continues(3)) return 0;
+  const bool overlong = lead == 0xf0 && at[1] < 0x90;
+  const bool too_large = lead == 0xf4 && at[1] >= 0x90;
+  return overlong || too_large ? 0 : 4;
+}
+
+void check_text(const std::filesystem::path& path, std::string_view text) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = text_character(bytes + i, text.size() - i);
+    if (length == 0) {
+      Findings findings(path.string());
+      findings.add(
+          1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n'),
+          "this is no text: a control character, or a byte that is not UTF-8");
+      findings.throw_if_any();
+    }
+    i += length;
+  }
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Takes a quoted field off the front of `line`, which starts with the quote. A field whose quote
+/// is not closed stays as it is, quote included.
+std::string_view take_quoted(std::string_view& line, std::vector<std::string>& owned) {
+  std::string value;
+  std::size_t i = 1;
+  for (; i < line.size(); ++i) {
+    if (line[i] == '"') {
+      if (i + 1 == line.size() || line[i + 1] != '"') break;
+      ++i;
+    }
+    value += line[i];
+  }
+  if (i == line.size()) return std::exchange(line, {});
+  line.remove_prefix(i + 1);
+  return owned.emplace_back(std::move(value));
+}
+
+}  // namespace
+
+void Findings::add(std::int64_t line, std::string_view message) {
+  if (enough()) return;
+  std::string text = file_ + ":";
+  if (line > 0) text += std::to_string(line) + ":";
+  lines_.push_back(text + " error: " + std::string(message));
+}
+
+void Findings::throw_if_any() const {
+  if (lines_.empty()) return;
+  std::string text;
+  for (const std::string& line : lines_) text += (text.empty() ? "" : "\n") + line;
+  if (enough()) text += "\n" + file_ + ": error: reading stopped after these findings";
+  throw InputError(text);
+}
+
+std::string read_text_file(const std::filesystem::path& path) {
+  const Descriptor file(path);
+  struct stat about {};
+  if (file.value() < 0 || ::fstat(file.value(), &about) != 0) {
+    refuse(path, "cannot read: " + std::generic_category().message(errno));
+  }
+  if (!S_ISREG(about.st_mode)) refuse(path, "this is no regular file");
+  if (about.st_size > kLongestFile) refuse(path, "longer than 256 MiB");
+  std::string text(static_cast<std::size_t>(about.st_size), '\0');
+  std::size_t filled = 0;
+  while (filled < text.size()) {
+    const ssize_t got = ::read(file.value(), text.data() + filled, text.size() - filled);
+    if (got < 0 && errno != EINTR) {
+      refuse(path, "cannot read: " + std::generic_category().message(errno));
+    }
+    if (got == 0) break;
+    if (got > 0) filled += static_cast<std::size_t>(got);
+  }
+  text.resize(filled);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  check_text(path, text);
+  return text;
+}
+
+std::optional<std::string_view> Lines::next() {
+  if (rest_.empty()) return std::nullopt;
+  ++number_;
+  const std::size_t end = rest_.find('\n');
+  std::string_view line = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+void split_fields(std::string_view line, std::vector<std::string_view>& fields,
+                  std::vector<std::string>& owned) {
+  fields.clear();
+  owned.clear();
+  // Views into `owned` stay valid because it never grows beyond this.
+  owned.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), '"')));
+  const char separator = line.find(',') == std::string_view::npos ? '\t' : ',';
+  while (true) {
+    const std::size_t start = line.find_first_not_of(separator == ',' ? " \t" : " ");
+    std::string_view field;
+    if (start != std::string_view::npos && line[start] == '"') {
+      line.remove_prefix(start);
+      field = take_quoted(line, owned);
+    }
+    const std::size_t end = line.find(separator);
+    const std::string_view plain = trimmed(line.substr(0, end));
+    if (field.data() == nullptr || !plain.empty()) field = plain;  // text after a quote shows up
+    fields.push_back(field);
+    if (end == std::string_view::npos) return;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<std::int64_t> parse_whole(std::string_view text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || std::trunc(*value) != *value || std::abs(*value) > kLargestWhole) {
+    return std::nullopt;
+  }
+  return static_cast<std::int64_t>(*value);
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string result = "'";
+  for (const char c : text.substr(0, kMost)) {
+    result +=
+        static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) < 0x7f ? c : '?';
+  }
+  return result + (text.size() > kMost ? "…'" : "'");
+}
+
+}  // namespace ghtrack

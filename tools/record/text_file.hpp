@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ghtrack {
+
+/// What is wrong with a text file, gathered so that the user sees all of it at once.
+class Findings {
+ public:
+  explicit Findings(std::string file) : file_(std::move(file)) {}
+
+  /// @param line  from 1; 0 if it is about the file as a whole
+  void add(std::int64_t line, std::string_view message);
+
+  /// Reading on would only repeat itself.
+  bool enough() const { return lines_.size() >= kMost; }
+
+  /// @throws InputError with one line per finding, if there is any
+  void throw_if_any() const;
+
+ private:
+  static constexpr std::size_t kMost = 10;
+
+  std::string file_;
+  std::vector<std::string> lines_;
+};
+
+/// Reads a regular file as text: UTF-8 without control characters other than tab and line ends, a
+/// byte order mark removed. Pipes and devices are refused without waiting for them.
+/// @throws InputError if it cannot be read, is longer than 256 MiB or is no text
+std::string read_text_file(const std::filesystem::path& path);
+
+/// Goes through the lines of a text; they end in LF or CR LF.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : rest_(text) {}
+
+  /// The next line without its end; absent after the last one.
+  std::optional<std::string_view> next();
+
+  std::int64_t number() const { return number_; }  // of the line that next() gave, from 1
+
+ private:
+  std::string_view rest_;
+  std::int64_t number_ = 0;
+};
+
+/// Splits at commas and removes blanks and tabs around the fields. Where a line has no comma, its
+/// fields are separated by tabs. A field in double quotes may hold commas; doubled quotes in it
+/// stand for one. `fields` refer to the line or, for quoted fields with doubled quotes, to `owned`.
+void split_fields(std::string_view line, std::vector<std::string_view>& fields,
+                  std::vector<std::string>& owned);
+
+/// The finite number that makes up the whole text; absent if it is anything else.
+std::optional<double> parse_number(std::string_view text);
+
+/// The whole number, in the range of an identity, that makes up the text; 3 and 3.0 are the same.
+std::optional<std::int64_t> parse_whole(std::string_view text);
+
+/// The text in quotes, safe for a terminal and short enough for a message.
+std::string in_quotes(std::string_view text);
+
+}  // namespace ghtrack
