@@ -31,18 +31,6 @@ struct WorldConfig {
   std::vector<Target> targets;
 };
 
-/// Gives every nameless target a name: "ball 2" for the second ball, or the next free number.
-void name_targets(std::vector<Target>& targets);
-
-/// What is wrong with a list of targets as a whole.
-struct TargetProblem {
-  std::size_t target;   // index in the list
-  std::string message;  // what is wrong and what is allowed
-};
-
-/// Finds equal names, and round bodies that begin inside each other.
-std::vector<TargetProblem> find_problems(const std::vector<Target>& targets);
-
 /// All targets in their surroundings: forces in, truth out.
 ///
 /// Each target is integrated in double precision to fourth order, bounces on ground and walls

@@ -1,9 +1,11 @@
 #pragma once
 
-#include <limits>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include "sim/regimes/balloon.hpp"
 #include "sim/regimes/motion.hpp"
@@ -49,5 +51,20 @@ struct Target {
     }
   }
 };
+
+/// The name of the regime: "train", "ball", "balloon".
+std::string_view kind_of(const Regime& regime);
+
+/// Gives every nameless target a name: "ball 2" for the second ball, or the next free number.
+void name_targets(std::vector<Target>& targets);
+
+/// What is wrong with a list of targets as a whole.
+struct TargetProblem {
+  std::size_t target;   // index in the list
+  std::string message;  // what is wrong and what is allowed
+};
+
+/// Finds equal names, and round bodies that begin inside each other.
+std::vector<TargetProblem> find_problems(const std::vector<Target>& targets);
 
 }  // namespace ghtrack
