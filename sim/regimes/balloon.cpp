@@ -80,8 +80,8 @@ void BalloonModel::advance(State& state, const Environment& environment, double 
   });
 }
 
-PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment, double time,
-                                    int) const {
+PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment,
+                                      double time, int) const {
   return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
 }
 

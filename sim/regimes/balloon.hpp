@@ -91,7 +91,7 @@ class BalloonModel {
   void advance(State& state, const Environment& environment, double from, double to) const;
   int objects() const { return 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
-                        int object) const;
+                          int object) const;
   int bodies() const { return 1; }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;

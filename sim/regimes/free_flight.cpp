@@ -66,7 +66,7 @@ void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface
 }
 
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
-                             const RoundBody& body, const std::vector<Surface>& surfaces) {
+                               const RoundBody& body, const std::vector<Surface>& surfaces) {
   FlightRate rate = free;
   if (state.support >= 0) {
     const Surface& surface = surfaces[static_cast<std::size_t>(state.support)];

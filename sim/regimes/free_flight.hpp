@@ -51,7 +51,7 @@ void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface
 
 /// What a sensor may see of a body with these rates of free flight.
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
-                             const RoundBody& body, const std::vector<Surface>& surfaces);
+                               const RoundBody& body, const std::vector<Surface>& surfaces);
 
 /// Takes over what a collision has made of the body.
 void adopt_flight(FlightState& state, const RigidBody& body);

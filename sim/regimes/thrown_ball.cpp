@@ -123,7 +123,7 @@ void BallModel::advance(State& state, const Environment& environment, double fro
 }
 
 PlanarMotion BallModel::kinematics(const State& state, const Environment& environment, double time,
-                                 int) const {
+                                   int) const {
   return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
 }
 

@@ -109,7 +109,7 @@ TrainModel::Effort TrainModel::effort(const State& state, double time) const {
     const double change = (wanted - speed) / kDriverTime;
     return Effort{.acceleration = std::clamp(change, -train_.service_brake, train_.service_brake)};
   };
-  if (state.phase < 0) return {.acceleration = 0.0};
+  if (state.phase < 0) return {.acceleration = 0.0, .limited = false};
 
   const DriveCommand& command = train_.drive[static_cast<std::size_t>(state.phase)].command;
   if (const auto* hold = std::get_if<Accelerate>(&command)) {
@@ -161,11 +161,13 @@ double TrainModel::hindered(double active, double passive, double direction, dou
   return (active - std::copysign(passive, active)) / inertia;
 }
 
-TrainModel::Effort TrainModel::effort_for(double acceleration, double speed, double active,
+TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, double active,
                                           double passive) const {
+  const double acceleration = *wanted.acceleration;
   const double inertia = train_.mass * train_.rotating_mass;
   const double direction = speed != 0.0 ? sign(speed) : sign(acceleration);
   const double needed = inertia * acceleration + direction * passive - active;
+  if (!wanted.limited) return {.force = needed};
   if (needed * direction < 0.0) {
     return {.braking = std::min(std::abs(needed) / inertia, train_.emergency_brake)};
   }
@@ -197,7 +199,7 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
     if (*now.acceleration == 0.0 && state.speed[0] == 0.0) {
       now = {.braking = train_.service_brake};  // a standing train holds its brakes
     } else {
-      now = effort_for(*now.acceleration, state.speed[0], active_sum, passive_sum);
+      now = effort_for(now, state.speed[0], active_sum, passive_sum);
     }
   }
   active[0] += now.force;
@@ -300,7 +302,7 @@ double TrainModel::place_of(const State& state, int car) const {
 }
 
 PlanarMotion TrainModel::kinematics(const State& state, const Environment&, double time,
-                                  int object) const {
+                                    int object) const {
   const std::size_t unit = masses_.size() > 1 ? static_cast<std::size_t>(object) : 0;
   State now = state;
   decide(now, time);

@@ -307,7 +307,7 @@ struct Train {
              .maximum = 1e6});
     v.field("speed", &Train::speed,
             {.unit = "m/s",
-             .meaning = "at the start, kept until the first drive phase",
+             .meaning = "at the start, kept exactly until the first drive phase",
              .minimum = -150.0,
              .maximum = 150.0});
     v.field("drive", &Train::drive,
@@ -412,7 +412,7 @@ class TrainModel {
   void advance(State& state, const Environment& environment, double from, double to) const;
   int objects() const { return train_.track_every_car ? train_.cars : 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
-                        int object) const;
+                          int object) const;
   int bodies() const { return train_.cars; }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
@@ -423,6 +423,7 @@ class TrainModel {
     double force = 0.0;                                 // traction [N]
     double braking = 0.0;                               // deceleration by the brakes [m/s²]
     std::optional<double> acceleration = std::nullopt;  // to be brought about by either [m/s²]
+    bool limited = true;                                // by traction, adhesion and brakes
   };
 
   const DrivePhase* next_phase(const State& state) const;
@@ -432,7 +433,7 @@ class TrainModel {
   double build_up(const Brake& brake) const;
   double traction_limit(double speed) const;
   Effort effort(const State& state, double time) const;
-  Effort effort_for(double acceleration, double speed, double active, double passive) const;
+  Effort effort_for(const Effort& wanted, double speed, double active, double passive) const;
   double slope_force(double place, double mass) const;
   double curve_drag(double place, double mass) const;
   void add_coupler_forces(const State& state, std::vector<double>& forces) const;
