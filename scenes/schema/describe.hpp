@@ -56,6 +56,11 @@ concept HasAbout = requires {
   std::string_view(T::about);
 };
 
+template <class T>
+concept HasMisnomers = requires {
+  T::misnomers.begin();
+};
+
 template <std::integral T>
 IntegerType integer_type() {
   return {.is_signed = std::is_signed_v<T>,
@@ -221,6 +226,9 @@ StructType struct_type() {
   T::describe(visitor);
   StructType type = std::move(visitor).take();
   if constexpr (HasAbout<T>) type.about = T::about;
+  if constexpr (HasMisnomers<T>) {
+    type.misnomers.assign(T::misnomers.begin(), T::misnomers.end());
+  }
   if constexpr (HasCheck<T>) {
     type.check = [](const void* object, const Report& report) { as<T>(object).check(report); };
   }

@@ -50,6 +50,10 @@ struct FieldInfo {
 //   template <class Report> void check(Report&& report) const {
 //     if (…) report("key", "what is wrong and what is allowed");
 //   }
+// Words that users may try for a key, and what to tell them instead of a near miss:
+//   static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> misnomers{
+//       {{"gamma", "has three meanings; …"}}};
+//
 // The alternatives of a variant carry `static constexpr std::string_view kind`, every described
 // struct may carry `static constexpr std::string_view about`: one sentence for the reference.
 

@@ -115,7 +115,7 @@ class ReferenceWriter {
   static std::string sentence(std::string_view text) {
     std::string result(text);
     result.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(result.front())));
-    return result + ".";
+    return result.ends_with('.') ? result : result + ".";
   }
 
   void add_below(const Below& section) {

@@ -42,7 +42,7 @@ struct WorldScene {
             {.meaning = "names the folder of the results", .required = true});
     v.field("seed", &WorldScene::seed, {.meaning = "chooses every random number of the run"});
     v.field("duration", &WorldScene::duration,
-            {.unit = "s", .meaning = "length of the run", .maximum = 1e6, .above = 0.0});
+            {.unit = "s", .meaning = "length of the run", .above = 0.0, .maximum = 1e6});
     v.field("physics", &WorldScene::physics, {.meaning = "how the world is computed"});
     v.field("world", &WorldScene::environment, {.meaning = "gravity, air, wind and ground"});
     v.field("targets", &WorldScene::targets,

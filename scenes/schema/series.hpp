@@ -138,6 +138,11 @@ struct SeriesGhk {
   static constexpr std::string_view kind = "ghk";
   static constexpr std::string_view about =
       "position, rate and acceleration; ddx += 2 k r / dt² as in FilterPy and Brookner";
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> misnomers{
+      {{"gamma",
+        "has three meanings; give k instead, which adds 2 k r / dt² to the acceleration: k = "
+        "gamma / 4 if your text adds gamma r / (2 dt²), k = gamma / 2 if it adds gamma r / dt², "
+        "k = gamma if it adds 2 gamma r / dt²"}}};
   double ddx0 = 0.0;
   double g = 0.2;
   double h = 0.02;

@@ -84,7 +84,8 @@ using Report = std::function<void(std::string_view key, std::string_view message
 struct StructType {
   std::string_view about;
   std::vector<FieldType> fields;
-  std::vector<std::pair<std::string, std::shared_ptr<void>>> presets;  // by name
+  std::vector<std::pair<std::string, std::shared_ptr<void>>> presets;    // by name
+  std::vector<std::pair<std::string_view, std::string_view>> misnomers;  // key, what to say
   void (*copy)(void* object, const void* other) = nullptr;
   void (*check)(const void* object, const Report& report) = nullptr;  // null if there is none
 

@@ -96,6 +96,22 @@ std::string other_owner(const StructType& type, std::string_view key) {
   return "";
 }
 
+/// What the struct, or an alternative in it, says of a wrong key; empty if nothing.
+std::string_view word_on(const StructType& type, std::string_view key, void* object) {
+  for (const auto& [misnomer, message] : type.misnomers) {
+    if (misnomer == key) return message;
+  }
+  for (const FieldType& field : type.fields) {
+    if (field.role != FieldType::Role::kTagged) continue;
+    void* const variant = field.member(object);
+    const VariantType& alternatives = variant_of(field);
+    const auto word =
+        word_on(alternative_of(alternatives, variant), key, alternatives.get(variant));
+    if (!word.empty()) return word;
+  }
+  return "";
+}
+
 /// The deepest node that a path leads to.
 const Node& locate(const Node& root, std::string_view path) {
   const Node* node = &root;
@@ -422,8 +438,11 @@ void ValueReader::report_unknown_keys(const Mapping& mapping, const StructType& 
     if (keys.empty()) keys = known_keys(type, object);
     const Node::Member& member = mapping.node.members[i];
     if (member.value.kind == Node::Kind::kRefused) continue;
+    const std::string_view word = word_on(type, member.key, object);
     const std::string owner = other_owner(type, member.key);
-    report_key(member, "unknown key" + (owner.empty() ? hint(member.key, "keys", keys) : owner));
+    report_key(member, !word.empty()    ? fmt::format("'{}' {}", member.key, word)
+                       : !owner.empty() ? "unknown key" + owner
+                                        : "unknown key" + hint(member.key, "keys", keys));
   }
 }
 

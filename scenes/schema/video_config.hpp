@@ -105,8 +105,8 @@ struct VideoConfig {
     v.field("follow_width", &VideoConfig::follow_width,
             {.unit = "m",
              .meaning = "width of the picture in the world when following a target",
-             .maximum = 1e6,
-             .above = 0.0});
+             .above = 0.0,
+             .maximum = 1e6});
     v.field("close_up", &VideoConfig::close_up,
             {.meaning = "name of the target that is shown enlarged in a corner"});
   }

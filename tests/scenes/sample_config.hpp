@@ -101,10 +101,10 @@ struct Ball {
   static void describe(Visitor& v) {
     v.preset("type", &Ball::type, Ball::presets(), {.meaning = "published data"});
     v.field("mass", &Ball::mass, {.unit = "kg", .meaning = "of the ball", .above = 0.0});
-    v.field("drag", &Ball::drag, {.unit = "1", .meaning = "coefficient", .minimum = 0.0,
-                                  .maximum = 2.0});
-    v.field("velocity", &Ball::velocity, {.unit = "m/s", .meaning = "at the start",
-                                          .minimum = -100.0, .maximum = 100.0});
+    v.field("drag", &Ball::drag,
+            {.unit = "1", .meaning = "coefficient", .minimum = 0.0, .maximum = 2.0});
+    v.field("velocity", &Ball::velocity,
+            {.unit = "m/s", .meaning = "at the start", .minimum = -100.0, .maximum = 100.0});
   }
 };
 
@@ -137,8 +137,8 @@ struct Config {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.field("rate", &Config::rate, {.unit = "Hz", .meaning = "steps", .minimum = 20.0,
-                                    .maximum = 1000.0});
+    v.field("rate", &Config::rate,
+            {.unit = "Hz", .meaning = "steps", .minimum = 20.0, .maximum = 1000.0});
     v.field("cars", &Config::cars, {.unit = "1", .meaning = "number", .minimum = 1});
     v.field("seed", &Config::seed, {.meaning = "of the noise"});
     v.field("open", &Config::open, {.meaning = "a switch"});
