@@ -3,9 +3,9 @@
 #include <array>
 #include <charconv>
 #include <concepts>
+#include <cstddef>
 #include <limits>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -181,6 +181,8 @@ ListType fixed_vector_type() {
 template <class Struct>
 class StructVisitor {
  public:
+  explicit StructVisitor(const Struct& defaults) : defaults_(defaults) {}
+
   template <class Member, class Owner>
   void field(std::string_view key, Member Owner::*member, const FieldInfo& info) {
     add(FieldType::Role::kField, key, member, info);
@@ -201,9 +203,7 @@ class StructVisitor {
   void preset(std::string_view key, std::string Owner::*member, const Rows& rows,
               const FieldInfo& info) {
     add(FieldType::Role::kPreset, key, member, info);
-    for (const Struct& row : rows) {
-      type_.presets.emplace_back(row.*member, std::make_shared<Struct>(row));
-    }
+    for (const Struct& row : rows) type_.presets.emplace_back(row.*member, &row);
   }
 
   StructType take() && { return std::move(type_); }
@@ -212,17 +212,19 @@ class StructVisitor {
   template <class Member, class Owner>
   void add(FieldType::Role role, std::string_view key, Member Owner::*member,
            const FieldInfo& info) {
-    type_.fields.push_back({role, key, info, &type_of<Member>, [member](void* object) -> void* {
-                              return &(as<Struct>(object).*member);
-                            }});
+    const auto address = [](const auto& object) {
+      return reinterpret_cast<const std::byte*>(&object);
+    };
+    type_.add(role, key, info, &type_of<Member>, address(defaults_.*member) - address(defaults_));
   }
 
+  const Struct& defaults_;
   StructType type_;
 };
 
 template <class T>
-StructType struct_type() {
-  StructVisitor<T> visitor;
+StructType struct_type(const T& defaults) {
+  StructVisitor<T> visitor(defaults);
   T::describe(visitor);
   StructType type = std::move(visitor).take();
   if constexpr (HasAbout<T>) type.about = T::about;
@@ -237,7 +239,7 @@ StructType struct_type() {
 }
 
 template <class T>
-decltype(Type::shape) shape_of() {
+decltype(Type::shape) shape_of(const T& defaults) {
   if constexpr (std::same_as<T, double>) {
     return RealType{};
   } else if constexpr (std::same_as<T, bool>) {
@@ -253,7 +255,7 @@ decltype(Type::shape) shape_of() {
   } else if constexpr (requires { ShapeOf<T>::make(); }) {
     return ShapeOf<T>::make();
   } else {
-    return struct_type<T>();
+    return struct_type<T>(defaults);
   }
 }
 
@@ -262,8 +264,8 @@ decltype(Type::shape) shape_of() {
 /// The description of a configuration type.
 template <class T>
 const Type& type_of() {
-  static const Type kType{detail::shape_of<T>(),
-                          []() -> std::shared_ptr<void> { return std::make_shared<T>(); }};
+  static const T kDefaults{};
+  static const Type kType{detail::shape_of<T>(kDefaults), &kDefaults};
   return kType;
 }
 

@@ -46,8 +46,7 @@ class SchemaWriter {
  public:
   Json write(const Type& root, std::string_view title) {
     count_uses(root);
-    const auto object = root.make();
-    Json body = schema_of(root, object.get(), {});
+    const Json body = schema_of(root, root.defaults, {});
     Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
     schema.update(body);
     if (!definitions_.empty()) schema["definitions"] = definitions_;
@@ -81,8 +80,7 @@ class SchemaWriter {
     if (name->second.definition.empty()) {
       name->second.definition = fmt::format("{}-{}", key_, definitions_.size() + 1);
       definitions_[name->second.definition] = Json();  // in the order of first use
-      const auto fresh = type.make();
-      Json schema = inline_schema(type, fresh.get(), info);
+      Json schema = inline_schema(type, type.defaults, info);
       definitions_[name->second.definition] = std::move(schema);
     }
     return {{"allOf", {{{"$ref", "#/definitions/" + name->second.definition}}}}};
@@ -110,12 +108,10 @@ class SchemaWriter {
           } else if constexpr (std::is_same_v<Shape, ListType>) {
             return list_schema(shape, info);
           } else if constexpr (std::is_same_v<Shape, MapType>) {
-            const auto item = shape.item().make();
             return {{"type", "object"},
-                    {"additionalProperties", schema_of(shape.item(), item.get(), info)}};
+                    {"additionalProperties", schema_of(shape.item(), shape.item().defaults, info)}};
           } else if constexpr (std::is_same_v<Shape, OptionalType>) {
-            const auto item = shape.item().make();
-            return schema_of(shape.item(), item.get(), info);
+            return schema_of(shape.item(), shape.item().defaults, info);
           } else if constexpr (std::is_same_v<Shape, VariantType>) {
             Json schema{{"type", "object"}, {"properties", alternatives(shape, object)}};
             schema["additionalProperties"] = false;
@@ -130,8 +126,7 @@ class SchemaWriter {
   }
 
   Json list_schema(const ListType& type, const FieldInfo& info) {
-    const auto item = type.item().make();
-    Json schema{{"type", "array"}, {"items", schema_of(type.item(), item.get(), info)}};
+    Json schema{{"type", "array"}, {"items", schema_of(type.item(), type.item().defaults, info)}};
     const std::size_t least = type.fixed_size > 0 ? type.fixed_size : info.min_items;
     const std::size_t most = type.fixed_size > 0 ? type.fixed_size : info.max_items;
     if (least > 0) schema["minItems"] = least;
@@ -144,21 +139,14 @@ class SchemaWriter {
     Json schemas = Json::object();
     for (std::size_t i = 0; i < type.alternatives.size(); ++i) {
       const auto& alternative = type.alternatives[i];
-      const auto object = default_of(type, variant, i);
+      const void* const object = type.defaults(variant, i);
       const auto& fields = std::get<StructType>(alternative.type().shape);
       key_ = alternative.kind;
-      Json schema = schema_of(alternative.type(), object.get(), {});
+      Json schema = schema_of(alternative.type(), object, {});
       if (!fields.about.empty()) schema["description"] = fields.about;
       schemas[std::string(alternative.kind)] = std::move(schema);
     }
     return schemas;
-  }
-
-  /// What the alternative's keys stand for if they are left out.
-  static std::shared_ptr<const void> default_of(const VariantType& type, const void* variant,
-                                                std::size_t index) {
-    if (type.index(variant) != index) return type.alternatives[index].type().make();
-    return {std::shared_ptr<void>(), type.get(const_cast<void*>(variant))};
   }
 
   Json struct_schema(const StructType& type, const void* object) {
@@ -174,7 +162,7 @@ class SchemaWriter {
       if (field.role == FieldType::Role::kTagged) {
         add_tagged(field, object, properties, conditions);
       } else if (field.role == FieldType::Role::kOneOf) {
-        const void* const variant = field.member(const_cast<void*>(object));
+        const void* const variant = field.member(object);
         const auto& kinds = std::get<VariantType>(field.type().shape);
         properties.update(alternatives(kinds, variant));
         Json choices = Json::array();
@@ -192,7 +180,7 @@ class SchemaWriter {
   }
 
   Json field_schema(const FieldType& field, const StructType& type, const void* object) {
-    const void* const value = field.member(const_cast<void*>(object));
+    const void* const value = field.member(object);
     const Json current = to_json(field.type(), value);
     Json schema;
     if (field.role == FieldType::Role::kPreset) {
@@ -217,15 +205,15 @@ class SchemaWriter {
   /// The union of the alternatives' keys, and for each alternative the keys that it forbids.
   void add_tagged(const FieldType& field, const void* object, Json& properties, Json& conditions) {
     const auto& type = std::get<VariantType>(field.type().shape);
-    const void* const variant = field.member(const_cast<void*>(object));
+    const void* const variant = field.member(object);
     const std::string tag(field.key);
     Json kinds = Json::array();
     std::vector<Json> schemas;
     for (std::size_t i = 0; i < type.alternatives.size(); ++i) {
       kinds.push_back(type.alternatives[i].kind);
-      const auto alternative = default_of(type, variant, i);
-      schemas.push_back(struct_schema(std::get<StructType>(type.alternatives[i].type().shape),
-                                      alternative.get()));
+      const void* const alternative = type.defaults(variant, i);
+      schemas.push_back(
+          struct_schema(std::get<StructType>(type.alternatives[i].type().shape), alternative));
     }
     const std::size_t current = type.index(variant);
     properties[tag] = {

@@ -109,7 +109,7 @@ class ReferenceWriter {
   struct Below {
     std::string path;
     const Type* type;
-    std::shared_ptr<const void> object;
+    const void* object;
   };
 
   static std::string sentence(std::string_view text) {
@@ -119,8 +119,7 @@ class ReferenceWriter {
   }
 
   void add_below(const Below& section) {
-    if (!known_.contains(section.type))
-      add_section(section.path, *section.type, section.object.get());
+    if (!known_.contains(section.type)) add_section(section.path, *section.type, section.object);
   }
 
   /// A link to the section of a mapping, which is written later if it is not there yet.
@@ -133,10 +132,7 @@ class ReferenceWriter {
     if (!is_mapping || scalar) return kind_of(type);
     const auto known = known_.find(&inner);
     if (known != known_.end()) path = known->second;
-    const bool direct = &inner == &type;
-    below.push_back({path, &inner,
-                     direct ? std::shared_ptr<const void>(std::shared_ptr<void>(), object)
-                            : std::shared_ptr<const void>(inner.make())});
+    below.push_back({path, &inner, &inner == &type ? object : inner.defaults});
     return fmt::format("[{}](#{})", kind_of(type), anchor(path));
   }
 
@@ -167,7 +163,7 @@ class ReferenceWriter {
 
   std::string field_row(const FieldType& field, const StructType& type, const void* object,
                         const std::string& path, std::vector<Below>& below) {
-    const void* const value = field.member(const_cast<void*>(object));
+    const void* const value = field.member(object);
     const Json json = to_json(field.type(), value);
     const std::string text = json.is_null() ? "" : value_text(json);
     constexpr std::size_t kLongestDefault = 60;
@@ -200,25 +196,18 @@ class ReferenceWriter {
       }
       const std::string name = path.empty() ? std::string(alternative.kind)
                                             : fmt::format("{}.{}", path, alternative.kind);
-      const auto object = default_of(type, variant, i);
-      const std::string value = link(alternative.type(), name, object.get(), below);
-      below.back().object = object;
+      const void* const object = type.defaults(variant, i);
+      const std::string value = link(alternative.type(), name, object, below);
       rows += row(alternative.kind, value, "", "", "", fields.about);
     }
     return rows;
-  }
-
-  static std::shared_ptr<const void> default_of(const VariantType& type, const void* variant,
-                                                std::size_t index) {
-    if (type.index(variant) != index) return type.alternatives[index].type().make();
-    return {std::shared_ptr<void>(), type.get(const_cast<void*>(variant))};
   }
 
   std::string struct_rows(const StructType& type, const void* object, const std::string& path,
                           std::vector<Below>& below) {
     std::string rows;
     for (const FieldType& field : type.fields) {
-      const void* const value = field.member(const_cast<void*>(object));
+      const void* const value = field.member(object);
       if (field.role == FieldType::Role::kOneOf) {
         const auto& kinds = std::get<VariantType>(field.type().shape);
         rows += row("", "**one of:**", "", "", "", field.info.meaning);
@@ -241,15 +230,10 @@ class ReferenceWriter {
                            fmt::format("{}", fmt::join(kinds, ", ")), field.info.meaning);
     for (std::size_t i = 0; i < type.alternatives.size(); ++i) {
       const auto& fields = std::get<StructType>(type.alternatives[i].type().shape);
-      const auto object = default_of(type, variant, i);
+      const void* const object = type.defaults(variant, i);
       rows += row("", fmt::format("**with** `{}: {}`", field.key, type.alternatives[i].kind), "",
                   "", "", fields.about);
-      std::vector<Below> inside;
-      rows += struct_rows(fields, object.get(), path, inside);
-      for (Below& section : inside) {
-        section.object = {object, section.object.get()};  // lives as long as its owner
-        below.push_back(std::move(section));
-      }
+      rows += struct_rows(fields, object, path, below);
     }
     return rows;
   }
@@ -261,7 +245,7 @@ class ReferenceWriter {
     for (const FieldType& field : type.fields) {
       if (field.role != FieldType::Role::kField) continue;
       const auto value_in = [&](const auto& preset) {
-        return to_json(field.type(), field.member(preset.second.get()));
+        return to_json(field.type(), field.member(preset.second));
       };
       const Json first = value_in(type.presets.front());
       const bool differs =
@@ -280,7 +264,7 @@ class ReferenceWriter {
     for (const auto& [name, preset] : type.presets) {
       table += fmt::format("| {} |", code(name));
       for (const FieldType* field : columns) {
-        const Json value = to_json(field->type(), field->member(preset.get()));
+        const Json value = to_json(field->type(), field->member(preset));
         table += fmt::format(" {} |", value.is_null() ? "" : cell(value_text(value)));
       }
       table += "\n";
@@ -296,8 +280,7 @@ class ReferenceWriter {
 
 std::string reference_tables(const Type& type) {
   ReferenceWriter writer;
-  const auto object = type.make();
-  writer.add_section("", type, object.get());
+  writer.add_section("", type, type.defaults);
   return std::move(writer).take();
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -44,6 +43,10 @@ struct ListType {
   std::size_t (*size)(const void* list);
   void (*resize)(void* list, std::size_t size);  // to fresh items
   void* (*at)(void* list, std::size_t index);
+
+  const void* item_at(const void* list, std::size_t index) const {
+    return at(const_cast<void*>(list), index);
+  }
 };
 
 struct MapType {
@@ -57,6 +60,8 @@ struct OptionalType {
   TypeRef item;
   void* (*get)(void* optional);  // null if there is none
   void* (*emplace)(void* optional);
+
+  const void* value(const void* optional) const { return get(const_cast<void*>(optional)); }
 };
 
 struct VariantType {
@@ -68,6 +73,10 @@ struct VariantType {
   std::size_t (*index)(const void* variant);
   void* (*get)(void* variant);
   void* (*emplace)(void* variant, std::size_t index);
+
+  const void* value(const void* variant) const { return get(const_cast<void*>(variant)); }
+  /// What the keys of an alternative stand for if they are left out.
+  const void* defaults(const void* variant, std::size_t alternative) const;
 };
 
 struct FieldType {
@@ -76,7 +85,12 @@ struct FieldType {
   std::string_view key;  // of a field, a tag or a preset
   FieldInfo info;
   TypeRef type = nullptr;
-  std::function<void*(void* object)> member;
+  std::size_t offset = 0;  // of the member in its struct, in bytes
+
+  void* member(void* object) const { return static_cast<std::byte*>(object) + offset; }
+  const void* member(const void* object) const {
+    return static_cast<const std::byte*>(object) + offset;
+  }
 };
 
 using Report = std::function<void(std::string_view key, std::string_view message)>;
@@ -84,24 +98,22 @@ using Report = std::function<void(std::string_view key, std::string_view message
 struct StructType {
   std::string_view about;
   std::vector<FieldType> fields;
-  std::vector<std::pair<std::string, std::shared_ptr<void>>> presets;    // by name
+  std::vector<std::pair<std::string_view, const void*>> presets;         // by name
   std::vector<std::pair<std::string_view, std::string_view>> misnomers;  // key, what to say
   void (*copy)(void* object, const void* other) = nullptr;
   void (*check)(const void* object, const Report& report) = nullptr;  // null if there is none
 
-  const FieldType* find(FieldType::Role role) const {
-    for (const FieldType& field : fields) {
-      if (field.role == role) return &field;
-    }
-    return nullptr;
-  }
+  /// The first field with that role; null if there is none.
+  const FieldType* find(FieldType::Role role) const;
+  void add(FieldType::Role role, std::string_view key, const FieldInfo& info, TypeRef type,
+           std::ptrdiff_t offset);
 };
 
 struct Type {
   std::variant<RealType, IntegerType, BooleanType, TextType, EnumType, ListType, MapType,
                OptionalType, VariantType, StructType>
       shape;
-  std::shared_ptr<void> (*make)();  // a value-initialised object
+  const void* defaults;  // a value-initialised object, which lives as long as the program
 };
 
 }  // namespace ghtrack::schema

@@ -17,14 +17,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kWidth = 100;
 
-/// Members are reached through functions that also serve the reader; nothing is changed here.
-void* writable(const void* object) { return const_cast<void*>(object); }
-
 void add_fields(Json& map, const StructType& type, const void* object);
 
 Json struct_json(const StructType& type, const void* object) {
   if (const FieldType* scalar = type.find(FieldType::Role::kScalar)) {
-    return to_json(scalar->type(), scalar->member(writable(object)));
+    return to_json(scalar->type(), scalar->member(object));
   }
   Json map = Json::object();
   add_fields(map, type, object);
@@ -34,7 +31,7 @@ Json struct_json(const StructType& type, const void* object) {
 void add_variant(Json& map, const FieldType& field, const void* variant) {
   const auto& type = std::get<VariantType>(field.type().shape);
   const auto& alternative = type.alternatives[type.index(variant)];
-  const void* const value = type.get(writable(variant));
+  const void* const value = type.value(variant);
   if (field.role == FieldType::Role::kOneOf) {
     map[std::string(alternative.kind)] = to_json(alternative.type(), value);
   } else {
@@ -45,7 +42,7 @@ void add_variant(Json& map, const FieldType& field, const void* variant) {
 
 void add_fields(Json& map, const StructType& type, const void* object) {
   for (const FieldType& field : type.fields) {
-    const void* const value = field.member(writable(object));
+    const void* const value = field.member(object);
     const std::string key(field.key);
     switch (field.role) {
       case FieldType::Role::kOneOf:
@@ -139,7 +136,7 @@ Json to_json(const Type& type, const void* object) {
         } else if constexpr (std::is_same_v<Shape, ListType>) {
           Json list = Json::array();
           for (std::size_t i = 0; i < shape.size(object); ++i) {
-            list.push_back(to_json(shape.item(), shape.at(writable(object), i)));
+            list.push_back(to_json(shape.item(), shape.item_at(object, i)));
           }
           return list;
         } else if constexpr (std::is_same_v<Shape, MapType>) {
@@ -149,12 +146,12 @@ Json to_json(const Type& type, const void* object) {
           }
           return map;
         } else if constexpr (std::is_same_v<Shape, OptionalType>) {
-          const void* const value = shape.get(writable(object));
+          const void* const value = shape.value(object);
           return value != nullptr ? to_json(shape.item(), value) : Json();
         } else if constexpr (std::is_same_v<Shape, VariantType>) {
           const auto& alternative = shape.alternatives[shape.index(object)];
-          return {{std::string(alternative.kind),
-                   to_json(alternative.type(), shape.get(writable(object)))}};
+          return {
+              {std::string(alternative.kind), to_json(alternative.type(), shape.value(object))}};
         } else {
           return struct_json(shape, object);
         }

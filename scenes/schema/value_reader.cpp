@@ -63,7 +63,7 @@ void* select(const VariantType& type, void* variant, std::size_t index) {
 }
 
 /// The keys that a mapping for this object may have.
-std::vector<std::string_view> known_keys(const StructType& type, void* object) {
+std::vector<std::string_view> known_keys(const StructType& type, const void* object) {
   std::vector<std::string_view> keys;
   for (const FieldType& field : type.fields) {
     if (!field.key.empty()) keys.push_back(field.key);
@@ -71,10 +71,10 @@ std::vector<std::string_view> known_keys(const StructType& type, void* object) {
       const auto names = kinds(variant_of(field));
       keys.insert(keys.end(), names.begin(), names.end());
     } else if (field.role == FieldType::Role::kTagged) {
-      void* const variant = field.member(object);
+      const void* const variant = field.member(object);
       const VariantType& alternatives = variant_of(field);
       const auto more =
-          known_keys(alternative_of(alternatives, variant), alternatives.get(variant));
+          known_keys(alternative_of(alternatives, variant), alternatives.value(variant));
       keys.insert(keys.end(), more.begin(), more.end());
     }
   }
@@ -86,8 +86,8 @@ std::string other_owner(const StructType& type, std::string_view key) {
   for (const FieldType& field : type.fields) {
     if (field.role != FieldType::Role::kTagged) continue;
     for (const auto& alternative : variant_of(field).alternatives) {
-      const auto object = alternative.type().make();
-      const auto keys = known_keys(std::get<StructType>(alternative.type().shape), object.get());
+      const auto keys =
+          known_keys(std::get<StructType>(alternative.type().shape), alternative.type().defaults);
       if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
         return fmt::format("; it belongs to '{}: {}'", field.key, alternative.kind);
       }
@@ -97,16 +97,16 @@ std::string other_owner(const StructType& type, std::string_view key) {
 }
 
 /// What the struct, or an alternative in it, says of a wrong key; empty if nothing.
-std::string_view word_on(const StructType& type, std::string_view key, void* object) {
+std::string_view word_on(const StructType& type, std::string_view key, const void* object) {
   for (const auto& [misnomer, message] : type.misnomers) {
     if (misnomer == key) return message;
   }
   for (const FieldType& field : type.fields) {
     if (field.role != FieldType::Role::kTagged) continue;
-    void* const variant = field.member(object);
+    const void* const variant = field.member(object);
     const VariantType& alternatives = variant_of(field);
     const auto word =
-        word_on(alternative_of(alternatives, variant), key, alternatives.get(variant));
+        word_on(alternative_of(alternatives, variant), key, alternatives.value(variant));
     if (!word.empty()) return word;
   }
   return "";
@@ -306,9 +306,7 @@ void ValueReader::read_struct(const Node& node, const StructType& type, void* ob
   if (const FieldType* scalar = type.find(FieldType::Role::kScalar)) {
     read(node, scalar->type(), scalar->member(object), scalar->info);
   } else {
-    if (!expect(
-            node, Node::Kind::kMap,
-            fmt::format("a mapping with the keys {}", fmt::join(known_keys(type, object), ", ")))) {
+    if (!expect(node, Node::Kind::kMap, mapping_name(known_keys(type, object)))) {
       return;
     }
     Mapping mapping{node, std::vector<bool>(node.members.size(), false)};
@@ -422,7 +420,7 @@ void ValueReader::read_preset(Mapping& mapping, const StructType& type, const Fi
   for (const auto& [row_name, row] : type.presets) {
     names.push_back(row_name);
     if (row_name != name) continue;
-    type.copy(object, row.get());
+    type.copy(object, row);
     return;
   }
   if (*static_cast<const std::string*>(field.member(object)) == name) return;
@@ -431,7 +429,7 @@ void ValueReader::read_preset(Mapping& mapping, const StructType& type, const Fi
 }
 
 void ValueReader::report_unknown_keys(const Mapping& mapping, const StructType& type,
-                                      void* object) {
+                                      const void* object) {
   std::vector<std::string_view> keys;
   for (std::size_t i = 0; i < mapping.used.size(); ++i) {
     if (mapping.used[i]) continue;
@@ -446,7 +444,7 @@ void ValueReader::report_unknown_keys(const Mapping& mapping, const StructType& 
   }
 }
 
-void ValueReader::run_checks(const Node& node, const StructType& type, void* object) {
+void ValueReader::run_checks(const Node& node, const StructType& type, const void* object) {
   if (type.check != nullptr) {
     type.check(object, [&](std::string_view key, std::string_view message) {
       const Node& at = key.empty() ? node : locate(node, key);
@@ -459,9 +457,9 @@ void ValueReader::run_checks(const Node& node, const StructType& type, void* obj
   }
   for (const FieldType& field : type.fields) {
     if (field.role != FieldType::Role::kTagged) continue;
-    void* const variant = field.member(object);
+    const void* const variant = field.member(object);
     const VariantType& alternatives = variant_of(field);
-    run_checks(node, alternative_of(alternatives, variant), alternatives.get(variant));
+    run_checks(node, alternative_of(alternatives, variant), alternatives.value(variant));
   }
 }
 

@@ -47,8 +47,8 @@ class ValueReader {
   void read_child(const Node::Member& member, const Type& type, void* object,
                   const FieldInfo& info);
   std::string scalar_name(const Node& node, std::string_view key);
-  void report_unknown_keys(const Mapping& mapping, const StructType& type, void* object);
-  void run_checks(const Node& node, const StructType& type, void* object);
+  void report_unknown_keys(const Mapping& mapping, const StructType& type, const void* object);
+  void run_checks(const Node& node, const StructType& type, const void* object);
 
   bool expect(const Node& node, Node::Kind kind, std::string_view what);
   void report(const Node& node, const std::string& message) { report_at(node, path_, message); }
