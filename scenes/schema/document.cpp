@@ -66,7 +66,16 @@ Refusal explain(const YAML::Exception& error, const SourceText& source,
   const auto bracket = builder.open_bracket();
   if (at_end && bracket) return {*bracket, "the bracket that opens here is not closed"};
   if (source.is_indented_with_tab(offset)) return {offset, "indent with spaces, not with tabs"};
-  return {offset, fmt::format("not a readable document: {}", error.msg)};
+  if (error.msg == YAML::ErrorMsg::MAP_VALUE) {
+    return {offset, "a ':' without a key of its own line; a text with ': ' in it needs quotes"};
+  }
+  std::string message = fmt::format("not a readable document: {}", error.msg);
+  if (bracket) {
+    const Position opened = source.position(*bracket);
+    message += fmt::format("; inside the bracket that opens in line {}, column {}", opened.line,
+                           opened.column);
+  }
+  return {offset, message};
 }
 
 Node parse(const SourceText& source, TreeBuilder& builder) {

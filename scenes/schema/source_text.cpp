@@ -24,8 +24,12 @@ bool looks_like_utf16_or_32(std::string_view text) {
 
 SourceText::SourceText(std::string_view text) : text_(text), line_starts_{0} {
   if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  characters_before_.reserve(text_.size() + 1);
+  characters_before_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i) {
     if (text_[i] == '\n') line_starts_.push_back(i + 1);
+    const bool continues = (static_cast<unsigned char>(text_[i]) & 0xC0U) == 0x80U;
+    characters_before_.push_back(characters_before_.back() + (continues ? 0 : 1));
   }
 }
 
@@ -36,12 +40,8 @@ std::size_t SourceText::offset(int line, int column) const {
 
 Position SourceText::position(std::size_t offset) const {
   const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-  const std::size_t line = static_cast<std::size_t>(next - line_starts_.begin()) - 1;
-  const std::string_view before = text_.substr(line_starts_[line], offset - line_starts_[line]);
-  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  const auto inside = std::count_if(before.begin(), before.end(), continues);
-  return {static_cast<int>(line) + 1,
-          static_cast<int>(before.size()) - static_cast<int>(inside) + 1};
+  const auto line = static_cast<int>(next - line_starts_.begin());
+  return {line, characters_before_[offset] - characters_before_[*(next - 1)] + 1};
 }
 
 std::optional<SourceText::Flaw> SourceText::flaw() const {

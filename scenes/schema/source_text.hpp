@@ -44,6 +44,7 @@ class SourceText {
 
   std::string_view text_;
   std::vector<std::size_t> line_starts_;
+  std::vector<int> characters_before_;  // each byte
 };
 
 }  // namespace ghtrack::schema

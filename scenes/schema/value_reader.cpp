@@ -257,10 +257,10 @@ void ValueReader::read_list(const Node& node, const ListType& type, void* object
     return;
   }
   if (count < info.min_items || count > info.max_items) {
-    report(node, fmt::format("must have at {} items, found {}",
-                             count < info.min_items ? fmt::format("least {}", info.min_items)
-                                                    : fmt::format("most {}", info.max_items),
-                             count));
+    const bool few = count < info.min_items;
+    const std::size_t limit = few ? info.min_items : info.max_items;
+    report(node, fmt::format("must have at {} {} item{}, found {}", few ? "least" : "most", limit,
+                             limit == 1 ? "" : "s", count));
     return;
   }
   type.resize(object, count);
