@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "tools/render/text.hpp"
 #include "tools/render/ticks.hpp"
 
 namespace ghtrack::render {
@@ -11,6 +10,7 @@ namespace {
 
 constexpr double kMajorSpacing = 105.0;  // [px] between lines with a number, at least
 constexpr int kMinorPerMajor = 5;
+constexpr double kLongestRail = 1e5;  // [px] of a straight piece that gets ties
 
 class Backdrop {
  public:
@@ -28,9 +28,10 @@ class Backdrop {
     if (!scene_.ground_height) return;
     const double height = *scene_.ground_height;
     const double depth = std::fmin(world_.min.y(), height);
-    canvas_.polygon({at(world_.min.x(), height), at(world_.max.x(), height),
-                     at(world_.max.x(), depth), at(world_.min.x(), depth)},
-                    dark::kGround);
+    const Pixel corner = at(world_.min.x(), height);
+    canvas_.rectangle(
+        {corner.x, corner.y, view_.viewport().width, (height - depth) * view_.scale()},
+        dark::kGround);
   }
 
   void grid() {
@@ -39,36 +40,28 @@ class Backdrop {
   }
 
   void field_of_view() {
-    double line = 0.0;
     for (const SensorDrawing& sensor : scene_.sensors) {
       if (sensor.field_of_view.size() < 3) continue;
       std::vector<Pixel> corners = pixels(sensor.field_of_view);
       corners.push_back(corners.front());
       canvas_.dashed(corners, dark::kFieldOfView, style_.length(8), style_.length(6),
-                     style_.stroke(1));
-      const Rectangle bounds = bounding_rectangle(sensor.field_of_view, 0.0).value_or(world_);
-      const Pixel corner =
-          at(std::fmax(bounds.min.x(), world_.min.x()), std::fmin(bounds.max.y(), world_.max.y()));
-      line += style_.length(17);
-      canvas_.text(fonts_.regular, drawable(sensor.name, 24), style_.letters(12),
-                   {corner.x + style_.length(30), corner.y + line + style_.length(3)},
-                   mix(dark::kWorld, dark::kAxisText, 0.8));
+                     style_.length(1));
     }
   }
 
   void edge_of_ground_and_walls() {
     if (scene_.ground_height)
       canvas_.line(at(world_.min.x(), *scene_.ground_height),
-                   at(world_.max.x(), *scene_.ground_height), dark::kGroundLine, style_.stroke(2));
+                   at(world_.max.x(), *scene_.ground_height), dark::kGroundLine, style_.length(2));
     for (const auto& [from, to] : scene_.walls)
-      canvas_.line(view_.to_pixel(from), view_.to_pixel(to), dark::kGroundLine, style_.stroke(4));
+      canvas_.line(view_.to_pixel(from), view_.to_pixel(to), dark::kGroundLine, style_.length(4));
   }
 
   void rails() {
     for (const std::vector<Vec2>& rail : scene_.rails) {
       const std::vector<Pixel> points = pixels(rail);
-      canvas_.dashed(points, dark::kRail, style_.length(2), style_.length(5), style_.stroke(9));
-      canvas_.polyline(points, dark::kTie, style_.stroke(2));
+      ties(points);
+      canvas_.polyline(points, dark::kTie, style_.length(1.6));
     }
   }
 
@@ -76,13 +69,13 @@ class Backdrop {
     const Color color = dark::kAxisText;
     const int letters = style_.letters(12);
     const Viewport& area = view_.viewport();
-    for (const double x : ticks(world_.min.x(), world_.max.x())) {
+    for (const double x : multiples(step_, world_.min.x(), world_.max.x())) {
       const Pixel pen{view_.to_pixel({x, 0.0}).x, area.bottom() - style_.length(6)};
-      if (pen.x > area.left + style_.length(44) && pen.x < area.right() - style_.length(150))
+      if (pen.x > area.left + style_.length(44) && pen.x < area.right() - step_ * view_.scale() - style_.length(44))
         canvas_.text(fonts_.regular, tick_label(x, step_), letters, pen, color,
                      Canvas::Align::kCentre);
     }
-    for (const double y : ticks(world_.min.y(), world_.max.y())) {
+    for (const double y : multiples(step_, world_.min.y(), world_.max.y())) {
       const Pixel pen{area.left + style_.length(6), view_.to_pixel({0.0, y}).y + 0.35 * letters};
       if (pen.y > area.top + style_.length(18) && pen.y < area.bottom() - style_.length(24))
         canvas_.text(fonts_.regular, tick_label(y, step_), letters, pen, color);
@@ -97,13 +90,33 @@ class Backdrop {
     const double tick = style_.length(5);
     const std::u32string label = tick_label(step_, step_) + U" m";
     canvas_.polyline({{left, y - tick}, {left, y}, {right, y}, {right, y - tick}}, dark::kMutedText,
-                     style_.stroke(2));
+                     style_.length(2));
     canvas_.text(fonts_.regular, label, style_.letters(13),
                  {0.5 * (left + right), y - style_.length(7)}, dark::kMutedText,
                  Canvas::Align::kCentre);
   }
 
  private:
+  /// Short strokes across a track, evenly along it.
+  void ties(const std::vector<Pixel>& points) {
+    const double spacing = style_.length(9);
+    const double half = style_.length(3.5);
+    double next = 0.0;  // [px] from the current point to the next tie
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const double dx = points[i].x - points[i - 1].x;
+      const double dy = points[i].y - points[i - 1].y;
+      const double length = std::hypot(dx, dy);
+      if (!(length > 0.0 && length < kLongestRail)) continue;
+      for (; next < length; next += spacing) {
+        const Pixel m{points[i - 1].x + dx * next / length, points[i - 1].y + dy * next / length};
+        const Pixel across{-dy / length * half, dx / length * half};
+        canvas_.line({m.x - across.x, m.y - across.y}, {m.x + across.x, m.y + across.y},
+                     dark::kRail, style_.length(1.6));
+      }
+      next -= length;
+    }
+  }
+
   Pixel at(double x, double y) const { return view_.to_pixel({x, y}); }
 
   std::vector<Pixel> pixels(const std::vector<Vec2>& points) const {
@@ -112,24 +125,20 @@ class Backdrop {
     return result;
   }
 
-  std::vector<double> ticks(double low, double high) const {
-    return round_ticks(low, high, std::max(1, static_cast<int>((high - low) / step_)));
+  /// Multiples of the step between these; the spacing in pixels keeps them few.
+  static std::vector<double> multiples(double step, double low, double high) {
+    std::vector<double> result;
+    const double first = std::ceil(low / step);
+    const int count = static_cast<int>(std::floor(high / step) - first);
+    for (int k = 0; k <= count; ++k) result.push_back((first + k) * step);
+    return result;
   }
 
   void lines(double step, Color color) {
-    const auto line_count = [&](double low, double high) {
-      return static_cast<int>(std::floor(high / step) - std::ceil(low / step));
-    };
-    const double first_x = std::ceil(world_.min.x() / step);
-    for (int k = 0; k <= line_count(world_.min.x(), world_.max.x()); ++k) {
-      const double x = (first_x + k) * step;
+    for (const double x : multiples(step, world_.min.x(), world_.max.x()))
       canvas_.line(at(x, world_.min.y()), at(x, world_.max.y()), color);
-    }
-    const double first_y = std::ceil(world_.min.y() / step);
-    for (int k = 0; k <= line_count(world_.min.y(), world_.max.y()); ++k) {
-      const double y = (first_y + k) * step;
+    for (const double y : multiples(step, world_.min.y(), world_.max.y()))
       canvas_.line(at(world_.min.x(), y), at(world_.max.x(), y), color);
-    }
   }
 
   Canvas& canvas_;

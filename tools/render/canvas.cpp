@@ -1,20 +1,27 @@
 #include "tools/render/canvas.hpp"
 
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace ghtrack::render {
 
 namespace {
 
-constexpr int kSubpixelBits = 4;
 constexpr double kMargin = 64.0;  // [px] beyond the edge at which lines are cut
 
 cv::Scalar scalar(Color color) { return {1.0 * color.blue, 1.0 * color.green, 1.0 * color.red}; }
+
+void blend_pixel(std::uint8_t* target, const std::array<int, 3>& ink, int share) {
+  for (int channel = 0; channel < 3; ++channel) {
+    const int below = target[channel];
+    target[channel] = static_cast<std::uint8_t>(
+        below + (ink[static_cast<std::size_t>(channel)] - below) * share / 255);
+  }
+}
 
 bool is_finite(Pixel point) { return std::isfinite(point.x) && std::isfinite(point.y); }
 
@@ -67,16 +74,6 @@ std::vector<Pixel> clip(std::vector<Pixel> corners, cv::Size size) {
   return corners;
 }
 
-cv::Point fixed_point(Pixel point) {
-  constexpr double kUnit = 1 << kSubpixelBits;
-  return {static_cast<int>(std::lround(point.x * kUnit)),
-          static_cast<int>(std::lround(point.y * kUnit))};
-}
-
-std::vector<Pixel> circle_outline(Pixel centre, double radius) {
-  return ellipse_outline(centre, {radius, 0.0}, {0.0, radius});
-}
-
 }  // namespace
 
 std::vector<Pixel> ellipse_outline(Pixel centre, Pixel axis_x, Pixel axis_y) {
@@ -96,7 +93,8 @@ std::vector<Pixel> ellipse_outline(Pixel centre, Pixel axis_x, Pixel axis_y) {
 
 Canvas::Canvas(cv::Mat& image) : Canvas(image, {0, 0}) {}
 
-Canvas::Canvas(cv::Mat part, cv::Point origin) : image_(std::move(part)), origin_(origin) {}
+Canvas::Canvas(cv::Mat part, cv::Point origin)
+    : image_(std::move(part)), origin_(origin), coverage_(image_.cols, image_.rows) {}
 
 Canvas Canvas::within(const Viewport& viewport) const {
   const cv::Rect wanted(static_cast<int>(std::lround(viewport.left)) - origin_.x,
@@ -108,98 +106,148 @@ Canvas Canvas::within(const Viewport& viewport) const {
 }
 
 bool Canvas::can_show(Pixel point, double reach) const {
-  const double x = point.x - origin_.x;
-  const double y = point.y - origin_.y;
-  return x + reach > 0.0 && x - reach < image_.cols && y + reach > 0.0 && y - reach < image_.rows;
+  const Pixel at = here(point);
+  return at.x + reach > 0.0 && at.x - reach < image_.cols && at.y + reach > 0.0 &&
+         at.y - reach < image_.rows;
+}
+
+void Canvas::begin(const std::vector<Pixel>& points, double margin) {
+  constexpr double kFar = 1e9;
+  Pixel min{kFar, kFar};
+  Pixel max{-kFar, -kFar};
+  for (const Pixel point : points) {
+    if (!is_finite(point)) continue;
+    const Pixel at = here(point);
+    min = {std::min(min.x, at.x), std::min(min.y, at.y)};
+    max = {std::max(max.x, at.x), std::max(max.y, at.y)};
+  }
+  coverage_.clear({min.x - margin - 1.0, min.y - margin - 1.0},
+                  {max.x + margin + 1.0, max.y + margin + 1.0});
+}
+
+void Canvas::blend(Color color) {
+  const std::array<int, 3> ink{color.blue, color.green, color.red};
+  for (int y = coverage_.top(); y < coverage_.bottom(); ++y) {
+    const std::uint8_t* share = coverage_.row(y);
+    std::uint8_t* target = image_.ptr(y) + 3 * coverage_.left();
+    for (int x = coverage_.left(); x < coverage_.right(); ++x, ++share, target += 3)
+      if (*share != 0) blend_pixel(target, ink, *share);
+  }
+}
+
+void Canvas::add_visible(Pixel from, Pixel to, double thickness, double opacity) {
+  if (!is_finite(from) || !is_finite(to)) return;
+  from = here(from);
+  to = here(to);
+  if (clip(from, to, image_.size())) coverage_.add_line(from, to, thickness, opacity);
 }
 
 void Canvas::fill(Color color) { image_.setTo(scalar(color)); }
 
-void Canvas::line(Pixel from, Pixel to, Color color, int thickness) {
-  if (!is_finite(from) || !is_finite(to)) return;
-  from = {from.x - origin_.x, from.y - origin_.y};
-  to = {to.x - origin_.x, to.y - origin_.y};
-  if (!clip(from, to, image_.size())) return;
-  cv::line(image_, fixed_point(from), fixed_point(to), scalar(color), thickness, cv::LINE_AA,
-           kSubpixelBits);
+void Canvas::line(Pixel from, Pixel to, Ink ink, double thickness) {
+  polyline({from, to}, ink, thickness);
 }
 
-void Canvas::polyline(const std::vector<Pixel>& points, Color color, int thickness) {
-  for (std::size_t i = 1; i < points.size(); ++i) line(points[i - 1], points[i], color, thickness);
+void Canvas::polyline(const std::vector<Pixel>& points, Ink ink, double thickness) {
+  begin(points, thickness);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    add_visible(points[i - 1], points[i], thickness, ink.opacity);
+  blend(ink.color);
 }
 
-void Canvas::dashed(const std::vector<Pixel>& points, Color color, double dash, double gap,
-                    int thickness) {
-  double phase = 0.0;  // [px] since a dash began
+void Canvas::fading(const std::vector<Pixel>& points, const std::vector<double>& opacities,
+                    Color color, double thickness) {
+  begin(points, thickness);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    add_visible(points[i - 1], points[i], thickness, opacities[i]);
+  blend(color);
+}
+
+void Canvas::dashed(const std::vector<Pixel>& points, Ink ink, double dash, double gap,
+                    double thickness) {
+  begin(points, thickness);
+  const double period = dash + gap;
+  double way = 0.0;  // [px] along the visible pieces
   for (std::size_t i = 1; i < points.size(); ++i) {
-    Pixel from{points[i - 1].x - origin_.x, points[i - 1].y - origin_.y};
-    Pixel to{points[i].x - origin_.x, points[i].y - origin_.y};
+    Pixel from = here(points[i - 1]);
+    Pixel to = here(points[i]);
     if (!is_finite(from) || !is_finite(to) || !clip(from, to, image_.size())) continue;
     const double length = std::hypot(to.x - from.x, to.y - from.y);
-    for (double at = 0.0; at < length;) {
-      const double rest = phase < dash ? dash - phase : dash + gap - phase;
-      const double end = std::min(length, at + rest);
-      const auto along = [&](double way) {
-        return Pixel{origin_.x + from.x + (to.x - from.x) * way / length,
-                     origin_.y + from.y + (to.y - from.y) * way / length};
-      };
-      if (phase < dash) line(along(at), along(end), color, thickness);
-      phase += end - at;
-      if (phase >= dash + gap - 1e-9) phase = 0.0;
-      at = end;
-    }
+    if (!(length > 0.0)) continue;
+    const auto along = [&](double at) {
+      const double share = std::clamp((at - way) / length, 0.0, 1.0);
+      return Pixel{from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
+    };
+    const int first = static_cast<int>(std::floor(way / period));
+    const int last = static_cast<int>(std::floor((way + length) / period));
+    for (int k = first; k <= last; ++k)
+      if (k * period + dash > way)
+        coverage_.add_line(along(k * period), along(k * period + dash), thickness, ink.opacity);
+    way += length;
   }
+  blend(ink.color);
 }
 
-void Canvas::polygon(const std::vector<Pixel>& corners, Color fill) {
-  std::vector<Pixel> here;
+void Canvas::polygon(const std::vector<Pixel>& corners, Ink fill) {
+  std::vector<Pixel> visible;
   for (const Pixel corner : corners) {
     if (!is_finite(corner)) return;
-    here.push_back({corner.x - origin_.x, corner.y - origin_.y});
+    visible.push_back(here(corner));
   }
-  std::vector<cv::Point> points;
-  for (const Pixel corner : clip(std::move(here), image_.size()))
-    points.push_back(fixed_point(corner));
-  if (points.size() > 2)
-    cv::fillConvexPoly(image_, points, scalar(fill), cv::LINE_AA, kSubpixelBits);
+  begin(corners, 1.0);
+  coverage_.add_polygon(clip(std::move(visible), image_.size()), fill.opacity);
+  blend(fill.color);
 }
 
-void Canvas::outline(std::vector<Pixel> corners, Color color, int thickness) {
+void Canvas::outline(std::vector<Pixel> corners, Ink ink, double thickness) {
   if (corners.empty()) return;
   corners.push_back(corners.front());
-  polyline(corners, color, thickness);
+  polyline(corners, ink, thickness);
 }
 
-void Canvas::disc(Pixel centre, double radius, Color fill) {
-  if (can_show(centre, radius)) polygon(circle_outline(centre, radius), fill);
+void Canvas::disc(Pixel centre, double radius, Ink fill) {
+  if (!can_show(centre, radius)) return;
+  begin({centre}, radius);
+  coverage_.add_disc(here(centre), radius, fill.opacity);
+  blend(fill.color);
 }
 
-void Canvas::circle(Pixel centre, double radius, Color color, int thickness) {
-  if (can_show(centre, radius + thickness))
-    outline(circle_outline(centre, radius), color, thickness);
+void Canvas::ring(Pixel centre, double radius, Ink ink, double thickness) {
+  if (!can_show(centre, radius + thickness)) return;
+  begin({centre}, radius + thickness);
+  coverage_.add_ring(here(centre), radius, thickness, ink.opacity);
+  blend(ink.color);
 }
 
-void Canvas::cross(Pixel centre, double arm, Color color, int thickness) {
-  line({centre.x - arm, centre.y - arm}, {centre.x + arm, centre.y + arm}, color, thickness);
-  line({centre.x - arm, centre.y + arm}, {centre.x + arm, centre.y - arm}, color, thickness);
+void Canvas::cross(Pixel centre, double arm, Ink ink, double thickness) {
+  begin({centre}, arm + thickness);
+  add_visible({centre.x - arm, centre.y - arm}, {centre.x + arm, centre.y + arm}, thickness,
+              ink.opacity);
+  add_visible({centre.x - arm, centre.y + arm}, {centre.x + arm, centre.y - arm}, thickness,
+              ink.opacity);
+  blend(ink.color);
 }
 
-void Canvas::arrow(Pixel from, Pixel to, double head, Color color, int thickness) {
+void Canvas::arrow(Pixel from, Pixel to, double head, Ink ink, double thickness) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   if (!(length > 0.5) || !std::isfinite(length)) return;
-  line(from, to, color, thickness);
   const double size = std::min(head, 0.6 * length);
   const Pixel along{(to.x - from.x) / length * size, (to.y - from.y) / length * size};
+  begin({from, to}, size + thickness);
+  add_visible(from, to, thickness, ink.opacity);
   for (const double side : {-0.5, 0.5})
-    line(to, {to.x - along.x - side * along.y, to.y - along.y + side * along.x}, color, thickness);
+    add_visible(to, {to.x - along.x - side * along.y, to.y - along.y + side * along.x}, thickness,
+                ink.opacity);
+  blend(ink.color);
 }
 
-void Canvas::shade(const Viewport& area, Color color, double opacity) {
-  if (!can_show({area.left, area.top}, 1e6)) return;
-  Canvas part = within(area);
-  if (part.image_.empty()) return;
-  const cv::Mat flat(part.image_.size(), part.image_.type(), scalar(color));
-  cv::addWeighted(part.image_, 1.0 - opacity, flat, opacity, 0.0, part.image_);
+void Canvas::rectangle(const Viewport& area, Color fill) {
+  if (is_finite({area.left, area.top}) && is_finite({area.right(), area.bottom()}))
+    polygon({{area.left, area.top},
+             {area.right(), area.top},
+             {area.right(), area.bottom()},
+             {area.left, area.bottom()}},
+            fill);
 }
 
 void Canvas::text(const Font& font, std::u32string_view text, int height, Pixel pen, Color color,
@@ -219,13 +267,18 @@ void Canvas::text(const Font& font, std::u32string_view text, int height, Pixel 
       const std::uint8_t* cover = glyph.coverage.ptr(seen.y - place.y + row) + (seen.x - place.x);
       std::uint8_t* target = image_.ptr(seen.y + row) + 3 * seen.x;
       for (int column = 0; column < seen.width; ++column, target += 3)
-        for (int channel = 0; channel < 3; ++channel)
-          target[channel] = static_cast<std::uint8_t>(
-              target[channel] +
-              (ink[static_cast<std::size_t>(channel)] - target[channel]) * cover[column] / 255);
+        blend_pixel(target, ink, cover[column]);
     }
     x += glyph.advance;
   }
+}
+
+void Canvas::rimmed_text(const Font& font, std::u32string_view text, int height, Pixel pen,
+                         Color color, Color rim) {
+  for (const double dx : {-1.0, 0.0, 1.0})
+    for (const double dy : {-1.0, 0.0, 1.0})
+      this->text(font, text, height, {pen.x + dx, pen.y + dy}, rim);
+  this->text(font, text, height, pen, color);
 }
 
 }  // namespace ghtrack::render

@@ -4,11 +4,21 @@
 
 #include <vector>
 
+#include "tools/render/coverage.hpp"
 #include "tools/render/font.hpp"
 #include "tools/render/palette.hpp"
 #include "tools/render/view.hpp"
 
 namespace ghtrack::render {
+
+/// A colour that may let through what is below.
+struct Ink {
+  Color color;
+  double opacity = 1.0;
+
+  Ink(Color opaque) : color(opaque) {}  // NOLINT: a colour is an ink
+  Ink(Color transparent, double share) : color(transparent), opacity(share) {}
+};
 
 /// Draws anti-aliased on an image, or on a part of it that nothing leaves. Positions are pixels of
 /// the whole image; they may be anywhere: what cannot be seen is clipped in double precision, what
@@ -23,31 +33,43 @@ class Canvas {
   Canvas within(const Viewport& viewport) const;
 
   void fill(Color color);
-  void line(Pixel from, Pixel to, Color color, int thickness = 1);
-  void polyline(const std::vector<Pixel>& points, Color color, int thickness = 1);
-  void dashed(const std::vector<Pixel>& points, Color color, double dash, double gap,
-              int thickness = 1);
-  void polygon(const std::vector<Pixel>& corners, Color fill);  // convex
-  void outline(std::vector<Pixel> corners, Color color, int thickness = 1);
-  void disc(Pixel centre, double radius, Color fill);
-  void circle(Pixel centre, double radius, Color color, int thickness = 1);
-  void cross(Pixel centre, double arm, Color color, int thickness = 1);
-  void arrow(Pixel from, Pixel to, double head, Color color, int thickness = 1);
+  void line(Pixel from, Pixel to, Ink ink, double thickness = 1.0);
+  void polyline(const std::vector<Pixel>& points, Ink ink, double thickness = 1.0);
 
-  /// A rectangle that lets through what is below; `opacity` 1 hides it.
-  void shade(const Viewport& area, Color color, double opacity);
+  /// A line that comes out of nothing: transparent at its first point.
+  void fading(const std::vector<Pixel>& points, const std::vector<double>& opacities, Color color,
+              double thickness);
+
+  void dashed(const std::vector<Pixel>& points, Ink ink, double dash, double gap,
+              double thickness = 1.0);
+  void polygon(const std::vector<Pixel>& corners, Ink fill);  // convex
+  void outline(std::vector<Pixel> corners, Ink ink, double thickness = 1.0);
+  void disc(Pixel centre, double radius, Ink fill);
+  void ring(Pixel centre, double radius, Ink ink, double thickness = 1.0);
+  void cross(Pixel centre, double arm, Ink ink, double thickness = 1.0);
+  void arrow(Pixel from, Pixel to, double head, Ink ink, double thickness = 1.0);
+  void rectangle(const Viewport& area, Color fill);
 
   /// @param pen where the baseline begins, ends, or has its middle
   void text(const Font& font, std::u32string_view text, int height, Pixel pen, Color color,
             Align align = Align::kLeft);
 
+  /// The same, with a dark rim that keeps it legible on anything.
+  void rimmed_text(const Font& font, std::u32string_view text, int height, Pixel pen, Color color,
+                   Color rim);
+
  private:
   Canvas(cv::Mat part, cv::Point origin);
 
+  Pixel here(Pixel point) const { return {point.x - origin_.x, point.y - origin_.y}; }
   bool can_show(Pixel point, double reach) const;
+  void add_visible(Pixel from, Pixel to, double thickness, double opacity);
+  void begin(const std::vector<Pixel>& points, double margin);
+  void blend(Color color);
 
-  cv::Mat image_;     // shares the pixels of the image drawn on
-  cv::Point origin_;  // of image_ in the whole image
+  cv::Mat image_;      // shares the pixels of the image drawn on
+  cv::Point origin_;   // of image_ in the whole image
+  Coverage coverage_;  // of what is being drawn
 };
 
 /// The outline of an ellipse as a polygon.

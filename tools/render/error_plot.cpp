@@ -37,7 +37,7 @@ void ErrorPlot::draw(Canvas& canvas, const Viewport& area, const Style& style,
                  box.bottom() - box.height * error / top};
   };
 
-  canvas.shade(area, dark::kWorld, 1.0);
+  canvas.rectangle(area, dark::kWorld);
   const int letters = style.letters(12);
   for (const double error : round_ticks(0.0, top, static_cast<int>(std::lround(top / step)))) {
     canvas.line(at(from_, error), at(to_, error), dark::kMajorGrid);
@@ -57,7 +57,7 @@ void ErrorPlot::draw(Canvas& canvas, const Viewport& area, const Style& style,
     const Color color = track_color(static_cast<int>(i) + 1);
     for (std::size_t k = 1; k < curves_[i].size(); ++k)
       canvas.line(at(curves_[i][k - 1].time, curves_[i][k - 1].error),
-                  at(curves_[i][k].time, curves_[i][k].error), color, style.stroke(2));
+                  at(curves_[i][k].time, curves_[i][k].error), color, style.length(2));
   }
   canvas.text(fonts.regular, U"running RMSE of position [m]", style.letters(13),
               {box.left + style.length(10), box.top + style.length(12)}, dark::kMutedText);

@@ -16,7 +16,8 @@ constexpr std::array<Direction, 8> kDirections{
     {{1, -1}, {1, 0}, {1, 1}, {0, -1}, {-1, -1}, {-1, 0}, {-1, 1}, {0, 1}}};
 constexpr std::array<double, 4> kDistances{0.0, 1.0, 2.2, 3.6};  // in heights of the label
 
-constexpr double kMoveCost = 0.6;  // a label stays unless that share of it is hidden
+constexpr double kMoveCost = 0.6;    // from one side of the anchor to another
+constexpr double kHidingCost = 0.4;  // of touching a thing that is marked
 constexpr double kDistanceCost = 0.15;
 constexpr double kDirectionCost = 0.02;
 
@@ -64,7 +65,8 @@ std::vector<std::optional<Viewport>> LabelLayout::place(const std::vector<LabelR
                     kDistanceCost * (slot / static_cast<int>(kDirections.size()));
       if (previous != slots_.end() && previous->second != slot) cost += kMoveCost;
       for (const Viewport& obstacle : obstacles)
-        cost += 2.0 * overlap(place, obstacle) / (request.width * request.height);
+        if (const double hidden = overlap(place, obstacle); hidden > 0.0)
+          cost += kHidingCost + 2.0 * hidden / (request.width * request.height);
       if (!(cost < least)) continue;
       least = cost;
       best = place;

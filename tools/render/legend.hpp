@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <set>
 
 #include "tools/render/canvas.hpp"
 #include "tools/render/style.hpp"
@@ -12,30 +12,29 @@ enum class Sign {
   kTrain,
   kBall,
   kBalloon,
+  kFieldOfView,
+  kWind,
   kDetection,
   kClutter,
+  kTrail,
+  kGate,
+  kResidual,
+  kFan,
   kTrack,
   kTentative,
   kCoasting,
-  kTrail,
-  kResidual,
-  kGate,
-  kFan,
   kLost,
   kSwitch,
-  kFieldOfView,
-  kWind,
 };
 
-/// The line at the bottom that explains the signs seen so far. An entry keeps its place: new ones
-/// are added at the end.
+/// The line at the bottom that explains the signs seen so far.
 class Legend {
  public:
-  void saw(Sign sign);
+  void saw(Sign sign) { signs_.insert(sign); }
   void draw(Canvas& canvas, const Viewport& area, const Style& style, const Typefaces& fonts) const;
 
  private:
-  std::vector<Sign> signs_;
+  std::set<Sign> signs_;
 };
 
 }  // namespace ghtrack::render

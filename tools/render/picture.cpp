@@ -14,6 +14,9 @@ namespace ghtrack::render {
 namespace {
 
 constexpr double kDetectionSeconds = 1.0;  // a detection fades away in that time
+constexpr double kPanelUnit = 0.8;         // signs are smaller when panels share the picture
+
+Color panel_color(std::size_t index) { return track_color(static_cast<int>(index) + 1); }
 
 std::u32string number(const char* format, double value) {
   char text[64];
@@ -27,6 +30,11 @@ std::optional<Vec2> position_of(ObjectId id, const TruthSnapshot& truth) {
   return std::nullopt;
 }
 
+bool has_field_of_view(const SceneDrawing& scene) {
+  return std::any_of(scene.sensors.begin(), scene.sensors.end(),
+                     [](const SensorDrawing& sensor) { return sensor.field_of_view.size() > 2; });
+}
+
 double end_of(const VideoOptions& options, const SceneDrawing& scene) {
   return std::max(options.from + 1e-3,
                   std::min(options.to.value_or(scene.duration), scene.duration));
@@ -38,10 +46,15 @@ Picture::Picture(const VideoOptions& options, const SceneDrawing& scene)
     : options_(options),
       scene_(scene),
       style_(Style::of_picture(options.width, options.height)),
+      panel_style_(style_),
       layout_(lay_out(options_, scene_, style_)),
-      painters_(layout_.panels.size()),
       errors_(options.from, end_of(options, scene)) {
-  for (const Viewport& panel : layout_.panels) views_.emplace_back(world_of(scene_), panel);
+  const bool compares = layout_.panels.size() > 1;
+  if (compares) panel_style_.unit *= kPanelUnit;
+  for (const Viewport& panel : layout_.panels) {
+    views_.emplace_back(world_of(scene_), panel);
+    painters_.emplace_back(compares ? std::optional(panel_color(painters_.size())) : std::nullopt);
+  }
   if (!options_.follow) {
     backdrop_.create(options_.height, options_.width, CV_8UC3);
     draw_backdrop_into(backdrop_, views_);
@@ -88,7 +101,7 @@ void Picture::draw_backdrop_into(cv::Mat& image, const std::vector<View>& views)
   canvas.fill(dark::kPage);
   for (std::size_t i = 0; i < views.size(); ++i) {
     Canvas panel = canvas.within(layout_.panels[i]);
-    draw_backdrop(panel, views[i], scene_, options_.layers, style_, fonts_);
+    draw_backdrop(panel, views[i], scene_, options_.layers, panel_style_, fonts_);
   }
 }
 
@@ -96,11 +109,11 @@ void Picture::draw_panel(Canvas& canvas, const View& view, const VideoFrame& fra
                          std::size_t index) {
   Canvas part = canvas.within(layout_.panels[index]);
   if (options_.layers.shows(Layer::kWind) && strongest_wind_ > 0.0 && !frame.wind.empty()) {
-    draw_wind(part, view, frame.wind, strongest_wind_, style_);
+    draw_wind(part, view, frame.wind, strongest_wind_, panel_style_);
     legend_.saw(Sign::kWind);
   }
   if (options_.layers.shows(Layer::kTruth)) {
-    const ShapesShown shown = draw_truth(part, view, scene_, frame.truth, style_);
+    const ShapesShown shown = draw_truth(part, view, scene_, frame.truth, panel_style_);
     if (shown.box) legend_.saw(Sign::kTrain);
     if (shown.disc) legend_.saw(Sign::kBall);
     if (shown.balloon) legend_.saw(Sign::kBalloon);
@@ -110,12 +123,15 @@ void Picture::draw_panel(Canvas& canvas, const View& view, const VideoFrame& fra
       for (const ObjectInfo& info : scene_.objects)
         if (info.id == object.id) {
           const Pixel at = view.to_pixel(object.position);
-          part.text(fonts_.regular, drawable(info.name, 24), style_.letters(12),
-                    {at.x, at.y + style_.length(26)}, dark::kMutedText, Canvas::Align::kCentre);
+          part.text(fonts_.regular, drawable(info.name, 24), panel_style_.letters(12),
+                    {at.x, at.y + panel_style_.length(26)}, dark::kMutedText,
+                    Canvas::Align::kCentre);
         }
+  if (options_.layers.shows(Layer::kFieldOfView) && has_field_of_view(scene_))
+    legend_.saw(Sign::kFieldOfView);
   draw_detections(part, view, frame);
-  painters_[index].draw(part, view, scene_, frame, frame.panels[index], options_.layers, style_,
-                        fonts_, legend_);
+  painters_[index].draw(part, view, scene_, frame, frame.panels[index], options_.layers,
+                        panel_style_, fonts_, legend_);
 }
 
 void Picture::draw_detections(Canvas& canvas, const View& view, const VideoFrame& frame) {
@@ -130,12 +146,12 @@ void Picture::draw_detections(Canvas& canvas, const View& view, const VideoFrame
       const bool is_clutter =
           i < observation.origins.size() && observation.origins[i] == kClutterOrigin;
       if (is_clutter && clutter) {
-        canvas.disc(at, style_.length(2.5), mix(dark::kClutter, dark::kWorld, fade));
+        canvas.disc(at, panel_style_.length(2.5), {dark::kClutter, 1.0 - fade});
         legend_.saw(Sign::kClutter);
       }
       if (!is_clutter && detections) {
-        canvas.cross(at, style_.length(5), mix(dark::kDetection, dark::kWorld, fade),
-                     style_.stroke(1.5));
+        canvas.cross(at, panel_style_.length(5), {dark::kDetection, 1.0 - fade},
+                     panel_style_.length(1.5));
         legend_.saw(Sign::kDetection);
       }
     }
@@ -147,7 +163,7 @@ void Picture::draw_header(Canvas& canvas, const PanelFrame& panel, std::size_t i
   const int letters = style_.letters(15);
   const double baseline = area.top + 0.5 * area.height + 0.36 * letters;
   double x = area.left + style_.length(12);
-  const Color color = track_color(static_cast<int>(index) + 1);
+  const Color color = panel_color(index);
   canvas.disc({x + style_.length(5), area.top + 0.5 * area.height}, style_.length(5), color);
   x += style_.length(18);
   const int space = static_cast<int>(area.width);
@@ -206,8 +222,8 @@ void Picture::draw_hud(Canvas& canvas, const VideoFrame& frame) {
 
   std::u32string facts = U"seed " + drawable(std::to_string(scene_.seed));
   for (const SensorDrawing& sensor : scene_.sensors)
-    facts += U"    " + drawable(sensor.name, 24) + number(" %.3g Hz", sensor.rate);
-  if (options_.slow != 1.0) facts += number("    %.3g× slow motion", options_.slow);
+    facts += U"    " + drawable(sensor.name, 24) + U" " + number("%.3g Hz", sensor.rate);
+  if (options_.slow != 1.0) facts += U"    " + number("%.3g× slow motion", options_.slow);
   const int space =
       static_cast<int>(area.width - 4.0 * margin) - fonts_.regular.width(counts, letters);
   canvas.text(fonts_.regular, fonts_.regular.fitted(facts, letters, std::max(0, space)), letters,

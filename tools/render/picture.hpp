@@ -29,6 +29,7 @@ class Picture {
   VideoOptions options_;
   SceneDrawing scene_;
   Style style_;
+  Style panel_style_;  // of what shows the world
   Typefaces fonts_;
   Layout layout_;
   std::vector<View> views_;             // one per panel, when nothing is followed

@@ -95,7 +95,7 @@ class PlotPainter {
                      {box_.right(), box_.top},
                      {box_.right(), box_.bottom()},
                      {box_.left, box_.bottom()}},
-                    kMutedInk, style_.stroke(1));
+                    kMutedInk, style_.length(1));
     legend();
   }
 
@@ -148,18 +148,18 @@ class PlotPainter {
               Color color) {
     switch (style) {
       case PlotSeries::Style::kTruth:
-        canvas.polyline(points, color, style_.stroke(2));
+        canvas.polyline(points, color, style_.length(2));
         break;
       case PlotSeries::Style::kMeasurement:
         for (const Pixel point : points)
-          canvas.circle(point, style_.length(4), color, style_.stroke(1.5));
+          canvas.ring(point, style_.length(4), color, style_.length(1.5));
         break;
       case PlotSeries::Style::kPrediction:
         canvas.dashed(points, mix(color, kPaper, 0.3), style_.length(5), style_.length(6),
-                      style_.stroke(1.5));
+                      style_.length(1.5));
         break;
       case PlotSeries::Style::kEstimate:
-        canvas.polyline(points, color, style_.stroke(2));
+        canvas.polyline(points, color, style_.length(2));
         for (const Pixel point : points)
           if (points.size() <= 80) canvas.disc(point, style_.length(3.5), color);
         break;

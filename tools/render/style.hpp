@@ -22,11 +22,8 @@ struct Style {
   }
 
   double length(double pixels) const { return pixels * unit; }
-  int stroke(double pixels) const {
-    return std::max(1, static_cast<int>(std::lround(pixels * unit)));
-  }
   int letters(double pixels) const {
-    return std::max(9, static_cast<int>(std::lround(pixels * unit)));
+    return std::max(7, static_cast<int>(std::lround(pixels * unit)));
   }
 };
 

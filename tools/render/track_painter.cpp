@@ -17,14 +17,21 @@ constexpr double kEventSeconds = 1.2;
 constexpr double kLabelSeconds = 0.25;    // a speed can be read that long
 constexpr double kGateSquared = 9.21034;  // 99 % of χ² with two degrees of freedom
 constexpr double kFanSeconds = 1.0;
-constexpr double kRing = 9.0;        // radius of the estimate's ring [px]
+constexpr double kRing = 10.0;       // radius of the estimate's ring [px]
 constexpr double kLabelGain = 0.25;  // of a new position on the place of its label
 
-Color color_of(const TrackEstimate& track) {
-  return track.status == TrackStatus::kTentative ? dark::kTentative : track_color(track.id);
+}  // namespace
+
+Vec2 predicted_position(const TrackEstimate& track, double ahead) {
+  return track.position + ahead * track.velocity + 0.5 * ahead * ahead * track.acceleration;
 }
 
-std::u32string label_text(const TrackEstimate& track) {
+Color TrackPainter::color_of(const TrackEstimate& track) const {
+  if (track.status == TrackStatus::kTentative) return dark::kTentative;
+  return color_ ? *color_ : track_color(track.id);
+}
+
+std::u32string TrackPainter::label_text(const TrackEstimate& track) const {
   char numbers[48];
   const double speed = track.velocity.norm();
   std::snprintf(numbers, sizeof numbers, " %.*f m/s", speed < 99.95 ? 1 : 0, speed);
@@ -32,10 +39,12 @@ std::u32string label_text(const TrackEstimate& track) {
   text += drawable(std::to_string(track.id));
   const std::u32string label = drawable(track.label, 16);
   if (!label.empty()) text += U" " + label;
+  if (color_) return text;  // among several panels space is short
   return std::isfinite(speed) && speed < 1e6 ? text + U" " + drawable(numbers) : text;
 }
 
-void draw_gate(Canvas& canvas, const View& view, const TrackEstimate& track, const Style& style) {
+void TrackPainter::draw_gate(Canvas& canvas, const View& view, const TrackEstimate& track,
+                             const Style& style) const {
   if (!track.innovation_covariance.allFinite()) return;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(track.innovation_covariance);
   const auto half_axis = [&](int i) {
@@ -45,17 +54,17 @@ void draw_gate(Canvas& canvas, const View& view, const TrackEstimate& track, con
     return Pixel{length * direction.x(), -length * direction.y()};
   };
   canvas.outline(ellipse_outline(view.to_pixel(track.prior_position), half_axis(0), half_axis(1)),
-                 mix(dark::kWorld, color_of(track), 0.45), style.stroke(1));
+                 {color_of(track), 0.5}, style.length(1.1));
 }
 
-void draw_residual(Canvas& canvas, const View& view, const TrackEstimate& track,
-                   const Style& style) {
+void TrackPainter::draw_residual(Canvas& canvas, const View& view, const TrackEstimate& track,
+                                 const Style& style) const {
   const Pixel prior = view.to_pixel(track.prior_position);
   const Color color = color_of(track);
-  const double r = style.length(4);
+  const double r = style.length(3.5);
   if (track.residual)
     canvas.line(prior, view.to_pixel(track.prior_position + *track.residual), color,
-                style.stroke(1.5));
+                style.length(1.5));
   canvas.polygon({{prior.x - r, prior.y},
                   {prior.x, prior.y - r},
                   {prior.x + r, prior.y},
@@ -63,22 +72,17 @@ void draw_residual(Canvas& canvas, const View& view, const TrackEstimate& track,
                  color);
 }
 
-void draw_estimate(Canvas& canvas, Pixel at, const TrackEstimate& track, const Style& style) {
+void TrackPainter::draw_estimate(Canvas& canvas, Pixel at, const TrackEstimate& track,
+                                 const Style& style) const {
   const double ring = style.length(track.status == TrackStatus::kTentative ? 6.0 : kRing);
-  const int thickness = style.stroke(track.status == TrackStatus::kTentative ? 1.0 : 2.0);
+  const double thickness = style.length(track.status == TrackStatus::kTentative ? 1.0 : 2.0);
   if (track.status == TrackStatus::kCoasting) {
     std::vector<Pixel> outline = ellipse_outline(at, {ring, 0.0}, {0.0, ring});
     outline.push_back(outline.front());
     canvas.dashed(outline, color_of(track), style.length(5), style.length(4.4), thickness);
   } else {
-    canvas.circle(at, ring, color_of(track), thickness);
+    canvas.ring(at, ring, color_of(track), thickness);
   }
-}
-
-}  // namespace
-
-Vec2 predicted_position(const TrackEstimate& track, double ahead) {
-  return track.position + ahead * track.velocity + 0.5 * ahead * ahead * track.acceleration;
 }
 
 void TrackPainter::remember(const VideoFrame& frame, const PanelFrame& panel) {
@@ -97,8 +101,7 @@ void TrackPainter::remember(const VideoFrame& frame, const PanelFrame& panel) {
     note_switches(frame, panel);
     for (const auto& [id, trace] : traces_)
       if (!trace.seen && trace.last.status != TrackStatus::kTentative)
-        events_.push_back(
-            {Sign::kLost, snapshot_time_, trace.last.position, track_color(trace.last.id)});
+        events_.push_back({Sign::kLost, snapshot_time_, trace.last.position, color_of(trace.last)});
     std::erase_if(traces_, [](const auto& entry) { return !entry.second.seen; });
   }
 
@@ -135,8 +138,7 @@ void TrackPainter::note_switches(const VideoFrame& frame, const PanelFrame& pane
       if (object == kClutterOrigin) continue;
       const auto [entry, is_new] = track_of_object_.try_emplace(object, track.id);
       if (!is_new && entry->second != track.id)
-        events_.push_back(
-            {Sign::kSwitch, panel.tracks.time, track.position, track_color(track.id)});
+        events_.push_back({Sign::kSwitch, panel.tracks.time, track.position, color_of(track)});
       entry->second = track.id;
     }
   }
@@ -163,7 +165,7 @@ void TrackPainter::draw(Canvas& canvas, const View& view, const SceneDrawing& sc
     if (layers.shows(Layer::kFans)) {
       for (int i = 1; i <= 5; ++i)
         canvas.disc(view.to_pixel(predicted_position(track, ahead + 0.2 * i * kFanSeconds)),
-                    style.length(2.0), mix(dark::kWorld, color_of(track), 1.0 - 0.13 * i));
+                    style.length(2.0), {color_of(track), 1.0 - 0.15 * i});
       legend.saw(Sign::kFan);
     }
   }
@@ -183,13 +185,13 @@ void TrackPainter::draw_trails(Canvas& canvas, const View& view, double now,
                                const Style& style) const {
   for (const auto& [id, trace] : traces_) {
     if (trace.last.status == TrackStatus::kTentative) continue;
-    const Color color = color_of(trace.last);
-    for (std::size_t i = 1; i < trace.trail.size(); ++i) {
-      const double age = (now - trace.trail[i].first) / kTrailSeconds;
-      canvas.line(view.to_pixel(trace.trail[i - 1].second), view.to_pixel(trace.trail[i].second),
-                  mix(color, dark::kWorld, std::clamp(0.15 + 0.85 * age, 0.0, 1.0)),
-                  style.stroke(2));
+    std::vector<Pixel> points;
+    std::vector<double> opacities;
+    for (const auto& [time, position] : trace.trail) {
+      points.push_back(view.to_pixel(position));
+      opacities.push_back(0.75 * std::clamp(1.0 - (now - time) / kTrailSeconds, 0.0, 1.0));
     }
+    canvas.fading(points, opacities, color_of(trace.last), style.length(2));
   }
 }
 
@@ -199,10 +201,10 @@ void TrackPainter::draw_events(Canvas& canvas, const View& view, double now, con
     const double age = std::clamp((now - event.time) / kEventSeconds, 0.0, 1.0);
     const Pixel at = view.to_pixel(event.position);
     if (event.sign == Sign::kLost)
-      canvas.cross(at, style.length(kRing), mix(event.color, dark::kWorld, age), style.stroke(2));
+      canvas.cross(at, style.length(kRing), {event.color, 1.0 - age}, style.length(2));
     else
-      canvas.circle(at, style.length(kRing + 16.0 * age), mix(dark::kDetection, dark::kWorld, age),
-                    style.stroke(3));
+      canvas.ring(at, style.length(kRing + 16.0 * age), mix(dark::kDetection, dark::kWorld, age),
+                  style.length(3));
     legend.saw(event.sign);
   }
 }
@@ -228,15 +230,8 @@ void TrackPainter::draw_labels(Canvas& canvas, const View& view, const SceneDraw
     named.push_back(&trace);
     obstacles.push_back({anchor.x - reach, anchor.y - reach, 2.0 * reach, 2.0 * reach});
   }
-  for (const BodyPose& body : frame.truth.bodies)
-    for (const ObjectInfo& object : scene.objects)
-      if (object.id == body.id) {
-        const Pixel at = view.to_pixel(body.position);
-        const double r = object.outline.shape == Outline::Shape::kBox
-                             ? style.length(6)
-                             : drawn_radius(object.outline, view, style);
-        obstacles.push_back({at.x - r, at.y - r, 2.0 * r, 2.0 * r});
-      }
+  for (const Viewport& body : drawn_bodies(view, scene, frame.truth, style))
+    obstacles.push_back(body);
   const Viewport inside{area.left + style.length(4), area.top + style.length(4),
                         area.width - style.length(8), area.height - style.length(30)};
   const auto places = labels_.place(requests, obstacles, inside);
@@ -252,12 +247,11 @@ void TrackPainter::draw_labels(Canvas& canvas, const View& view, const SceneDraw
       const double share = requests[i].reach / distance;
       canvas.line(
           {anchor.x + share * (nearest.x - anchor.x), anchor.y + share * (nearest.y - anchor.y)},
-          nearest, mix(dark::kWorld, color, 0.6), style.stroke(1));
+          nearest, {color, 0.6}, style.length(1.2));
     }
-    canvas.shade(place, dark::kWorld, 0.6);
-    canvas.text(fonts.regular, named[i]->label, letters,
-                {place.left + style.length(4), place.bottom() - 0.32 * letters},
-                mix(color, dark::kDetection, 0.25));
+    canvas.rimmed_text(fonts.regular, named[i]->label, letters,
+                       {place.left + style.length(4), place.bottom() - 0.32 * letters},
+                       mix(color, dark::kDetection, 0.25), dark::kWorld);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace ghtrack::render {
 /// which have come and gone.
 class TrackPainter {
  public:
+  /// @param color of all tracks, when several trackers are compared; else each has its own
+  explicit TrackPainter(std::optional<Color> color = std::nullopt) : color_(color) {}
+
   /// Takes note of a frame; once for each, in the order of time.
   void remember(const VideoFrame& frame, const PanelFrame& panel);
 
@@ -40,6 +44,14 @@ class TrackPainter {
     Color color;
   };
 
+  Color color_of(const TrackEstimate& track) const;
+  std::u32string label_text(const TrackEstimate& track) const;
+  void draw_gate(Canvas& canvas, const View& view, const TrackEstimate& track,
+                 const Style& style) const;
+  void draw_residual(Canvas& canvas, const View& view, const TrackEstimate& track,
+                     const Style& style) const;
+  void draw_estimate(Canvas& canvas, Pixel at, const TrackEstimate& track,
+                     const Style& style) const;
   void note_switches(const VideoFrame& frame, const PanelFrame& panel);
   void draw_trails(Canvas& canvas, const View& view, double now, const Style& style) const;
   void draw_events(Canvas& canvas, const View& view, double now, const Style& style,
@@ -47,6 +59,7 @@ class TrackPainter {
   void draw_labels(Canvas& canvas, const View& view, const SceneDrawing& scene,
                    const VideoFrame& frame, const Style& style, const Typefaces& fonts);
 
+  std::optional<Color> color_;
   std::map<int, Trace> traces_;  // by track id
   std::map<ObjectId, int> track_of_object_;
   std::vector<Event> events_;

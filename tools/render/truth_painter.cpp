@@ -25,14 +25,14 @@ void draw_box(Canvas& canvas, Pixel centre, const BodyPose& pose, const Outline&
   };
   const std::vector<Pixel> corners{corner(1, 1), corner(1, -1), corner(-1, -1), corner(-1, 1)};
   canvas.polygon(corners, dark::kTruth);
-  canvas.outline(corners, dark::kTruthEdge, style.stroke(1));
+  canvas.outline(corners, dark::kTruthEdge, style.length(1));
 }
 
 void draw_disc(Canvas& canvas, Pixel centre, double radius, double angle, const Style& style) {
-  canvas.disc(centre, radius, dark::kText);
+  canvas.disc(centre, radius, dark::kTruth);
   const Pixel rim{centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
-  canvas.line(centre, rim, dark::kTruthEdge, style.stroke(radius > 8.0 ? 2 : 1.5));
-  canvas.circle(centre, radius, dark::kTruthEdge, style.stroke(1));
+  canvas.line(centre, rim, dark::kTruthEdge, style.length(1.6));
+  canvas.ring(centre, radius, dark::kTruthEdge, style.length(1));
 }
 
 void draw_balloon(Canvas& canvas, Pixel centre, double radius, const Style& style) {
@@ -41,20 +41,45 @@ void draw_balloon(Canvas& canvas, Pixel centre, double radius, const Style& styl
   std::vector<Pixel> string;
   for (int i = 0; i <= 8; ++i)
     string.push_back({knot.x + 0.14 * radius * std::sin(0.9 * i), knot.y + 0.28 * radius * i});
-  canvas.polyline(string, dark::kTruthEdge, style.stroke(1));
+  canvas.polyline(string, dark::kTruthEdge, style.length(1));
   canvas.polygon(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), dark::kTruth);
   canvas.outline(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), dark::kTruthEdge,
-                 style.stroke(1));
+                 style.length(1));
   canvas.polygon({{knot.x, knot.y - 0.1 * radius},
                   {knot.x - 0.22 * radius, knot.y + 0.25 * radius},
                   {knot.x + 0.22 * radius, knot.y + 0.25 * radius}},
                  dark::kTruth);
   canvas.line({centre.x - 0.45 * radius, centre.y - 0.2 * radius},
               {centre.x - 0.2 * radius, centre.y - 0.55 * radius}, dark::kDetection,
-              style.stroke(1.5));
+              style.length(1.5));
 }
 
 }  // namespace
+
+std::vector<Viewport> drawn_bodies(const View& view, const SceneDrawing& scene,
+                                   const TruthSnapshot& truth, const Style& style) {
+  std::vector<Viewport> boxes;
+  const auto add = [&](Pixel at, double radius) {
+    boxes.push_back({at.x - radius, at.y - radius, 2.0 * radius, 2.0 * radius});
+  };
+  for (const BodyPose& body : truth.bodies) {
+    const ObjectInfo* const object = find(scene, body.id);
+    if (object == nullptr) continue;
+    const Outline& outline = object->outline;
+    if (outline.shape != Outline::Shape::kBox) {
+      add(view.to_pixel(body.position), drawn_radius(outline, view, style));
+      continue;
+    }
+    const double radius = std::fmax(0.5 * outline.width * view.scale(), style.length(4));
+    constexpr int kParts = 5;  // a long car is a row of squares
+    for (int i = 0; i < kParts; ++i) {
+      const double along = ((i + 0.5) / kParts - 0.5) * outline.length;
+      add(view.to_pixel(body.position + along * Vec2(std::cos(body.angle), std::sin(body.angle))),
+          radius);
+    }
+  }
+  return boxes;
+}
 
 double drawn_radius(const Outline& outline, const View& view, const Style& style) {
   const double smallest = outline.shape == Outline::Shape::kBalloon ? 7.0 : 4.5;
@@ -96,7 +121,7 @@ void draw_wind(Canvas& canvas, const View& view, const std::vector<WindSample>& 
     const double x = longest * sample.velocity.x() / reference;
     const double y = -longest * sample.velocity.y() / reference;
     canvas.arrow({middle.x - 0.5 * x, middle.y - 0.5 * y}, {middle.x + 0.5 * x, middle.y + 0.5 * y},
-                 style.length(7), dark::kWind, style.stroke(1));
+                 style.length(7), dark::kWind, style.length(1));
   }
 }
 

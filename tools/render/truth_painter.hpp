@@ -20,6 +20,10 @@ ShapesShown draw_truth(Canvas& canvas, const View& view, const SceneDrawing& sce
 /// Half the size at which an object is drawn [px].
 double drawn_radius(const Outline& outline, const View& view, const Style& style);
 
+/// Boxes around all that draw_truth() draws, for labels to avoid.
+std::vector<Viewport> drawn_bodies(const View& view, const SceneDrawing& scene,
+                                   const TruthSnapshot& truth, const Style& style);
+
 /// Draws arrows along the wind; the longest ones show `reference` [m/s].
 void draw_wind(Canvas& canvas, const View& view, const std::vector<WindSample>& wind,
                double reference, const Style& style);

@@ -56,7 +56,7 @@ SyntheticScene::SyntheticScene(int panels)
     add("balloon " + std::to_string(i + 1), "balloon", {Outline::Shape::kBalloon, 1.2, 1.2});
   for (int i = 0; i < panels; ++i) {
     const Gains& gains = kGains[static_cast<std::size_t>(i)];
-    drawing_.panels.push_back({gains.name, "g " + std::to_string(gains.g).substr(0, 5) + "  h " +
+    drawing_.panels.push_back({gains.name, "g " + std::to_string(gains.g).substr(0, 4) + "  h " +
                                                std::to_string(gains.h).substr(0, 5)});
   }
 }
