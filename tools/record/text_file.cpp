@@ -17,6 +17,7 @@ namespace ghtrack {
 namespace {
 
 constexpr std::int64_t kLongestFile = std::int64_t{256} << 20;
+constexpr std::size_t kLongestLine = std::size_t{64} << 10;
 constexpr std::int64_t kLargestWhole = std::int64_t{1} << 53;
 
 /// Closes a file descriptor at the end of its scope.
@@ -61,16 +62,25 @@ std::size_t text_character(const unsigned char* at, std::size_t left) {
   return overlong || too_large ? 0 : 4;
 }
 
+[[noreturn]] void refuse_at(const std::filesystem::path& path, std::string_view text,
+                            std::size_t offset, const std::string& reason) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(offset);
+  const auto line = 1 + std::count(text.begin(), end, '\n');
+  throw InputError(path.string() + ":" + std::to_string(line) + ": error: " + reason);
+}
+
 void check_text(const std::filesystem::path& path, std::string_view text) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+  std::size_t line_start = 0;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = text_character(bytes + i, text.size() - i);
     if (length == 0) {
-      Findings findings(path.string());
-      findings.add(
-          1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n'),
-          "this is no text: a control character, or a byte that is not UTF-8");
-      findings.throw_if_any();
+      refuse_at(path, text, i, "this is no text: a control character, or a byte that is not UTF-8");
+    }
+    if (bytes[i] == '\n') {
+      line_start = i + 1;
+    } else if (i - line_start > kLongestLine) {
+      refuse_at(path, text, i, "this line is longer than 64 KiB");
     }
     i += length;
   }

@@ -32,7 +32,8 @@ class Findings {
 
 /// Reads a regular file as text: UTF-8 without control characters other than tab and line ends, a
 /// byte order mark removed. Pipes and devices are refused without waiting for them.
-/// @throws InputError if it cannot be read, is longer than 256 MiB or is no text
+/// @throws InputError if it cannot be read, is longer than 256 MiB, has a line of more than 64 KiB
+/// or is no text
 std::string read_text_file(const std::filesystem::path& path);
 
 /// Goes through the lines of a text; they end in LF or CR LF.

@@ -1,0 +1,271 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "tests/tools/record/scratch_folder.hpp"
+#include "tools/record/csv_reader.hpp"
+#include "tools/record/errors.hpp"
+#include "tools/record/mot_file.hpp"
+#include "tools/record/text_file.hpp"
+
+namespace ghtrack {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Runs `read` on a file with this content. The message names the file "in.csv" without its folder.
+template <class Read>
+std::string message_of(const std::string& content, Read read) {
+  const ScratchFolder folder;
+  const auto path = folder.write("in.csv", content);
+  try {
+    read(path);
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    const std::string prefix = folder.path().string() + "/";
+    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
+      text.erase(at, prefix.size());
+    }
+    return text;
+  }
+  return "accepted";
+}
+
+std::string detections_message(const std::string& content) {
+  return message_of(content, [](const auto& path) { read_mot_file(path, MotKind::kDetections); });
+}
+
+std::string result_message(const std::string& content) {
+  return message_of(content, [](const auto& path) { read_mot_file(path, MotKind::kResult); });
+}
+
+std::vector<MotRow> rows_of(const std::string& content, MotKind kind) {
+  const ScratchFolder folder;
+  return read_mot_file(folder.write("in.csv", content), kind);
+}
+
+// Derived: the rows as they are written.
+TEST(MotFile, ReadsRowsInAnyOrderOfFrames) {
+  const auto rows = rows_of(
+      "69,-1,912.8,482.9,97.6,112.6,1\n3,-1,835.8,472.2,53.7,77,0.5\n"
+      "69,-1,1,2,3,4,-0.25\n",
+      MotKind::kDetections);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].frame, 3);
+  EXPECT_EQ(rows[0].height, 77.0);
+  EXPECT_EQ(rows[1].left, 912.8);
+  EXPECT_EQ(rows[2].confidence, -0.25);
+}
+
+// Property: the dialects of the format say the same.
+TEST(MotFile, ReadsEveryDialectAlike) {
+  for (const std::string text :
+       {"1,2,-15,20.5,30,40,1,-1,-1,-1\n", "1, 2, -15, 20.5, 30, 40, 1, -1, -1, -1\r\n",
+        "1\t2\t-15\t20.5\t30\t40\t1\t-1\t-1\t-1", "1.0,2,-1.5e1,+2.05E+1,3e1,4e1,1e0,-1,-1,-1",
+        "\xef\xbb\xbf"
+        "1,2,-15,20.5,30,40,1\n\n",
+        "1,2,-15,20.5,30,40", "1,\"2\",-15,20.5,30,40,1"}) {
+    SCOPED_TRACE(text);
+    const auto rows = rows_of(text, MotKind::kResult);
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].frame, 1);
+    EXPECT_EQ(rows[0].id, 2);
+    EXPECT_EQ(rows[0].left, -15.0);
+    EXPECT_EQ(rows[0].top, 20.5);
+    EXPECT_EQ(rows[0].width, 30.0);
+    EXPECT_EQ(rows[0].height, 40.0);
+    EXPECT_EQ(rows[0].confidence, 1.0);
+  }
+}
+
+// Property: each defect is reported with its line and what is allowed.
+TEST(MotFile, NamesLineAndReason) {
+  EXPECT_EQ(detections_message("1,-1,1,2,3,4,1\n2,-1,nan,2,3,4,1\n"),
+            "in.csv:2: error: 'nan' in field 3 (left) is not a finite number");
+  EXPECT_EQ(detections_message("1,-1,1,2,3,1e999,1\n"),
+            "in.csv:1: error: '1e999' in field 6 (height) is not a finite number");
+  EXPECT_EQ(detections_message("1,-1,10,20\n"),
+            "in.csv:1: error: 4 fields; a row has frame,id,left,top,width,height and up to 10 "
+            "fields in all");
+  EXPECT_EQ(detections_message("0,-1,10,20,3,4,1\n"),
+            "in.csv:1: error: frame '0' is not a whole number from 1 to 2147483647");
+  EXPECT_EQ(detections_message("1.5,-1,10,20,3,4,1\n"),
+            "in.csv:1: error: frame '1.5' is not a whole number from 1 to 2147483647");
+  EXPECT_EQ(detections_message("1,-1,10,20,-30,4,1\n"),
+            "in.csv:1: error: width '-30' and height '4' must be above 0");
+  EXPECT_EQ(detections_message("1,0.5,10,20,3,4,1\n"),
+            "in.csv:1: error: id '0.5' is not a whole number");
+  EXPECT_EQ(detections_message("1,-1,\xe9,20,3,4,1\n"),
+            "in.csv:1: error: this is no text: a control character, or a byte that is not UTF-8");
+  EXPECT_EQ(detections_message("frame,id,x\n"),
+            "in.csv:1: error: 3 fields; a row has frame,id,left,top,width,height and up to 10 "
+            "fields in all");
+  EXPECT_EQ(result_message("1,1,1,2,3,4\n2,1,1,2,3,4\n1,1,5,6,7,8\n"),
+            "in.csv:3: error: id 1 is there twice in frame 1; the first is in line 1");
+  EXPECT_EQ(detections_message("1,1,1,2,3,4\n1,1,5,6,7,8\n"), "accepted");
+  EXPECT_EQ(detections_message(""), "accepted");
+}
+
+// Property: all defects are listed, but not without end.
+TEST(MotFile, ListsManyDefectsAndStops) {
+  EXPECT_EQ(detections_message("0,-1,1,2,3,4\nx,-1,1,2,3,4\n1,-1,1,2,3,4\n1,2\n"),
+            "in.csv:1: error: frame '0' is not a whole number from 1 to 2147483647\n"
+            "in.csv:2: error: 'x' in field 1 (frame) is not a finite number\n"
+            "in.csv:4: error: 2 fields; a row has frame,id,left,top,width,height and up to 10 "
+            "fields in all");
+  std::string bad;
+  for (int i = 0; i < 1000; ++i) bad += "1,2\n";
+  const std::string message = detections_message(bad);
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 10);
+  EXPECT_THAT(message, HasSubstr("reading stopped"));
+}
+
+// Property: what a message repeats from a file is short and carries no raw control characters.
+TEST(MotFile, KeepsMessagesReadable) {
+  const std::string message =
+      detections_message("1,-1," + std::string(5000, 'y') + "\xc2\x9b,2,3,4\n");
+  EXPECT_LT(message.size(), 150U);
+  EXPECT_EQ(detections_message(std::string(70000, ',')),
+            "in.csv:1: error: this line is longer than 64 KiB");
+}
+
+// Derived: 10 columns: confidence 0 is not scored; 9 columns: nor is another category.
+TEST(MotFile, LeavesOutTruthThatIsNotScored) {
+  EXPECT_EQ(rows_of("1,1,1,2,3,4,1,-1,-1,-1\n1,2,1,2,3,4,0,-1,-1,-1\n", MotKind::kTruth).size(),
+            1U);
+  const auto rows =
+      rows_of("1,1,1,2,3,4,1,1,0.5\n1,2,1,2,3,4,1,7,1\n1,3,1,2,3,4,0,1,1\n", MotKind::kTruth);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].id, 1);
+}
+
+// Property: rows beyond the known end of the sequence are errors.
+TEST(MotFile, RefusesFramesPastTheEnd) {
+  const auto read = [](const auto& path) { read_mot_file(path, MotKind::kResult, 100); };
+  EXPECT_EQ(message_of("1,1,1,2,3,4\n101,1,1,2,3,4\n", read),
+            "in.csv:2: error: frame '101' is not a whole number from 1 to 100");
+}
+
+// Property: rows written are rows read, to the two decimals of the format.
+TEST(MotFile, ReadsWhatItWrites) {
+  std::string text;
+  append_mot_row(
+      text, {.frame = 12, .id = 3, .left = 1.005, .top = -2.5, .width = 30.0, .height = 40.25});
+  EXPECT_EQ(text, "12,3,1.00,-2.50,30.00,40.25,1,-1,-1,-1\n");
+  EXPECT_EQ(rows_of(text, MotKind::kResult).at(0).height, 40.25);
+}
+
+// Property: the first character tells the formats apart.
+TEST(MotFile, IsToldFromCsvByItsFirstLine) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(looks_like_mot_file(folder.write("a", "1,-1,1,2,3,4\n")));
+  EXPECT_FALSE(looks_like_mot_file(folder.write("b", "t,x,y\n1,2,3\n")));
+  EXPECT_FALSE(looks_like_mot_file(folder.write("c", "")));
+  EXPECT_FALSE(looks_like_mot_file(folder.path()));
+}
+
+// Derived: the file as the format's instructions show it.
+TEST(SequenceInfo, ReadsTheSequenceSection) {
+  const ScratchFolder folder;
+  const SequenceInfo info = read_sequence_info(
+      folder.write("seqinfo.ini",
+                   "[Sequence]\r\nname = plaza\r\nimDir=img1\r\nframeRate=12.5\r\nseqLength=71\r\n"
+                   "imWidth=640\r\nimHeight=480\r\nimExt=.jpg\r\n"));
+  EXPECT_EQ(info.name, "plaza");
+  EXPECT_EQ(info.frame_rate, 12.5);
+  EXPECT_EQ(info.length, 71);
+  EXPECT_EQ(info.width, 640);
+  EXPECT_EQ(info.height, 480);
+  EXPECT_EQ(message_of("[Sequence]\nseqLength=many\nframeRate=0\nodd\n",
+                       [](const auto& path) { read_sequence_info(path); }),
+            "in.csv:2: error: seqLength 'many' is not a whole number above 0\n"
+            "in.csv:3: error: frameRate '0' is not a number above 0\n"
+            "in.csv:4: error: 'odd' is not `key = value`");
+}
+
+// Property: columns are found by name; times are sorted; tentative tracks are left out.
+TEST(CsvReader, FindsColumnsByName) {
+  const ScratchFolder folder;
+  const auto points =
+      read_tracks_csv(folder.write("tracks.csv",
+                                   "y,status,name,track_id,t,x\n2,confirmed,\"a, b\",7,0.2,1\n"
+                                   "4,coasting,c,-3,0.1,3\n9,tentative,c,8,0.1,9\n"));
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0].id, -3);
+  EXPECT_EQ(points[0].time, 0.1);
+  EXPECT_EQ(points[0].position, Eigen::Vector2d(3.0, 4.0));
+  EXPECT_EQ(points[1].id, 7);
+  EXPECT_EQ(points[1].position, Eigen::Vector2d(1.0, 2.0));
+}
+
+// Derived: rows with the same time and sensor make one scan.
+TEST(CsvReader, GathersDetectionsIntoScans) {
+  const ScratchFolder folder;
+  const DetectionTable table = read_detections_csv(
+      folder.write("d.csv",
+                   "t,sensor,class,x,y\n0.2,radar,ball,1,2\n0.1,camera,,3,4\n0.2,camera,train,5,6\n"
+                   "0.2,radar,,7,8\n"));
+  EXPECT_THAT(table.sensors, ElementsAre("radar", "camera"));
+  ASSERT_EQ(table.scans.size(), 3U);
+  EXPECT_EQ(table.scans[0].time, 0.1);
+  EXPECT_EQ(table.scans[0].sensor, 1);
+  EXPECT_EQ(table.scans[1].sensor, 0);
+  ASSERT_EQ(table.scans[1].detections.size(), 2U);
+  EXPECT_EQ(table.scans[1].detections[0].label, "ball");
+  EXPECT_EQ(table.scans[1].detections[1].position, Eigen::Vector2d(7.0, 8.0));
+  EXPECT_EQ(table.scans[2].detections[0].label, "train");
+}
+
+// Property: defects of a CSV file are named with line, column and what the file has instead.
+TEST(CsvReader, NamesLineAndColumn) {
+  const auto truth = [](const auto& path) { read_truth_csv(path); };
+  EXPECT_EQ(message_of("t,id,x\n", truth),
+            "in.csv:1: error: column 'truth_id' is missing; the header row has 't', 'id', 'x'\n"
+            "in.csv:1: error: column 'y' is missing; the header row has 't', 'id', 'x'");
+  EXPECT_EQ(message_of("", truth).substr(0, 71),
+            "in.csv:1: error: column 't' is missing; the header row has nothing\nin.c");
+  EXPECT_EQ(message_of("t,truth_id,x,y,x\n", truth), "in.csv:1: error: column 'x' is there twice");
+  EXPECT_EQ(message_of("t,truth_id,x,y\n0,1,abc,2\n0,1.5,1,inf\n0,1\n", truth),
+            "in.csv:2: error: 'abc' in column 'x' is not a finite number\n"
+            "in.csv:3: error: '1.5' in column 'truth_id' is not a whole number\n"
+            "in.csv:3: error: 'inf' in column 'y' is not a finite number\n"
+            "in.csv:4: error: this row has 2 fields; the header row has 4");
+  EXPECT_EQ(message_of("t,truth_id,x,y\n0,1,1,2\n1,1,1,2\n0,1,1,2\n", truth),
+            "in.csv:4: error: id 1 is there twice at the same time; the first is in line 2");
+}
+
+// Property: what is no regular file is refused at once, by name.
+TEST(TextFile, RefusesWhatIsNoRegularFile) {
+  const ScratchFolder folder;
+  const auto message = [](const std::filesystem::path& path) -> std::string {
+    try {
+      read_text_file(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(message(pipe), pipe.string() + ": error: this is no regular file");
+  EXPECT_EQ(message("/dev/zero"), "/dev/zero: error: this is no regular file");
+  EXPECT_THAT(message(folder.path()), HasSubstr("this is no regular file"));
+  EXPECT_EQ(message(folder.path() / "none"),
+            (folder.path() / "none").string() + ": error: cannot read: No such file or directory");
+}
+
+// Property: numbers are decimal, finite and use the whole field.
+TEST(TextFile, ParsesNumbersStrictly) {
+  EXPECT_EQ(parse_number("+2.0E+1"), 20.0);
+  EXPECT_EQ(parse_number("-.5"), -0.5);
+  for (const char* text :
+       {"", "+", "+-1", "nan", "inf", "1e999", "0x1p3", "1.5abc", "1 2", "1,5"}) {
+    EXPECT_FALSE(parse_number(text).has_value()) << text;
+  }
+  EXPECT_EQ(parse_whole("3.0"), 3);
+  EXPECT_FALSE(parse_whole("1e300").has_value());
+}
+
+}  // namespace
+}  // namespace ghtrack

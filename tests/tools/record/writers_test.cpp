@@ -1,0 +1,188 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "tests/tools/record/scratch_folder.hpp"
+#include "tools/record/atomic_file.hpp"
+#include "tools/record/csv_writer.hpp"
+#include "tools/record/errors.hpp"
+#include "tools/record/run_writer.hpp"
+
+namespace ghtrack {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string message_of_write(const std::filesystem::path& path) {
+  try {
+    write_file(path, std::string(200000, 'x'));
+  } catch (const WriteError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// Property: a file has its name only after commit(), and an abandoned one leaves nothing.
+TEST(AtomicFile, AppearsOnlyWhenComplete) {
+  const ScratchFolder folder;
+  {
+    AtomicFile file(folder.path() / "a.txt");
+    file.write("half");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.txt"));
+  }
+  EXPECT_EQ(folder.file_count(), 0U);
+  AtomicFile file(folder.path() / "a.txt");
+  file.write("who");
+  AtomicFile moved = std::move(file);
+  moved.write("le");
+  moved.commit();
+  EXPECT_EQ(folder.read("a.txt"), "whole");
+  EXPECT_EQ(folder.file_count(), 1U);
+}
+
+// Property: an older file of that name survives until the new one is complete.
+TEST(AtomicFile, KeepsTheOldFileUntilThen) {
+  const ScratchFolder folder;
+  write_file(folder.path() / "a.txt", "old");
+  { AtomicFile(folder.path() / "a.txt").write("new"); }
+  EXPECT_EQ(folder.read("a.txt"), "old");
+  write_file(folder.path() / "a.txt", "new");
+  EXPECT_EQ(folder.read("a.txt"), "new");
+}
+
+// Property: every failure of the environment names the file and the reason.
+TEST(AtomicFile, ReportsWhyItCannotWrite) {
+  const ScratchFolder folder;
+  const auto missing = folder.path() / "missing" / "a.txt";
+  EXPECT_EQ(message_of_write(missing),
+            missing.string() + ": error: cannot write: No such file or directory");
+  EXPECT_THAT(message_of_write(folder.path()), HasSubstr("Is a directory"));
+  EXPECT_EQ(message_of_write("/dev/full"),
+            "/dev/full: error: cannot write: No space left on device");
+}
+
+// Property: doubles read back to the same bits.
+TEST(CsvRow, WritesNumbersThatReadBack) {
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 10000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) continue;
+    std::string text;
+    append_number(text, value);
+    ASSERT_EQ(std::strtod(text.c_str(), nullptr), value);
+  }
+  CsvRow row;
+  row << 0.1 << 1e300 << -0.0 << 7 << std::optional<double>{} << 2.5;
+  row.end();
+  EXPECT_EQ(row.text(), "0.1,1e+300,-0,7,,2.5\n");
+}
+
+// Derived: RFC 4180 for quotes; an apostrophe keeps spreadsheets from running a cell.
+TEST(CsvRow, QuotesTextAndDisarmsFormulas) {
+  CsvRow row;
+  row << "plain"
+      << "a,b"
+      << "say \"hi\""
+      << "=1+1"
+      << "-x,y"
+      << "@a"
+      << "+b"
+      << "";
+  row.end();
+  EXPECT_EQ(row.text(), "plain,\"a,b\",\"say \"\"hi\"\"\",'=1+1,\"'-x,y\",'@a,'+b,\n");
+}
+
+/// Two objects, of which the second is a ball.
+std::vector<ObjectInfo> two_objects() {
+  std::vector<ObjectInfo> objects(2);
+  objects[1].id = 1;
+  objects[1].name = "fly ball";
+  objects[1].regime = "ball";
+  return objects;
+}
+
+StepRecord record_at(double time) {
+  StepRecord record;
+  record.truth.time = record.observation.scan.time = record.tracks.time = time;
+  record.truth.objects = {{1, {1.5, 2.0}, {3.0, 4.0}, {0.0, -9.80665}}};
+  record.observation.scan.detections.resize(2);
+  record.observation.scan.detections[0].position = {1.25, 2.25};
+  record.observation.scan.detections[0].label = "ball";
+  record.observation.scan.detections[1].position = {100.0, 0.1};
+  record.observation.origins = {1, kClutterOrigin};
+  TrackEstimate track;
+  track.id = 3;
+  track.status = TrackStatus::kCoasting;
+  track.filter = "gh";
+  track.position = {1.0, 2.0};
+  track.velocity = {3.0, 4.0};
+  track.prior_position = {0.5, 2.5};
+  track.sigma = {0.25, 0.5};
+  record.tracks.tracks = {track};
+  return record;
+}
+
+// Derived: the promised columns, written out by hand.
+TEST(RunWriter, WritesThePromisedColumns) {
+  const ScratchFolder folder;
+  RunWriter writer(folder.path(), two_objects(), {"camera"});
+  StepRecord record = record_at(0.1);
+  writer.add(record);
+  record = record_at(0.2);
+  record.tracks.tracks[0].status = TrackStatus::kConfirmed;
+  record.tracks.tracks[0].residual = Eigen::Vector2d(0.125, -0.5);
+  writer.add(record);
+  writer.commit();
+  EXPECT_EQ(folder.read("truth.csv"),
+            "t,truth_id,name,kind,x,y,vx,vy,ax,ay\n"
+            "0.1,1,fly ball,ball,1.5,2,3,4,0,-9.80665\n"
+            "0.2,1,fly ball,ball,1.5,2,3,4,0,-9.80665\n");
+  EXPECT_EQ(folder.read("detections.csv"),
+            "t,sensor,class,x,y\n"
+            "0.1,camera,ball,1.25,2.25\n0.1,camera,,100,0.1\n"
+            "0.2,camera,ball,1.25,2.25\n0.2,camera,,100,0.1\n");
+  EXPECT_EQ(folder.read("origins.csv"),
+            "t,sensor,x,y,truth_id\n"
+            "0.1,camera,1.25,2.25,1\n0.1,camera,100,0.1,-1\n"
+            "0.2,camera,1.25,2.25,1\n0.2,camera,100,0.1,-1\n");
+  EXPECT_EQ(folder.read("tracks.csv"),
+            "t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y\n"
+            "0.1,3,coasting,gh,1,2,3,4,0,0,0.5,2.5,,,0.25,0.5\n"
+            "0.2,3,confirmed,gh,1,2,3,4,0,0,0.5,2.5,0.125,-0.5,0.25,0.5\n");
+}
+
+// Property: of two sensors at one instant, truth and tracks have one row per time.
+TEST(RunWriter, WritesTruthAndTracksOncePerTime) {
+  const ScratchFolder folder;
+  RunWriter writer(folder.path(), two_objects());
+  StepRecord record = record_at(0.5);
+  writer.add(record);
+  record.observation.scan.sensor = 1;
+  record.tracks.tracks[0].position.x() = 7.0;
+  writer.add(record);
+  writer.commit();
+  const std::string truth = folder.read("truth.csv");
+  EXPECT_EQ(std::count(truth.begin(), truth.end(), '\n'), 2);
+  const std::string tracks = folder.read("tracks.csv");
+  EXPECT_EQ(std::count(tracks.begin(), tracks.end(), '\n'), 2);
+  EXPECT_THAT(tracks, HasSubstr("0.5,3,coasting,gh,7,"));
+  EXPECT_THAT(folder.read("detections.csv"), HasSubstr("\n0.5,1,ball,"));
+}
+
+// Property: without commit() a run leaves no file.
+TEST(RunWriter, LeavesNothingOfAnAbandonedRun) {
+  const ScratchFolder folder;
+  {
+    RunWriter writer(folder.path(), two_objects());
+    writer.add(record_at(0.0));
+  }
+  EXPECT_EQ(folder.file_count(), 0U);
+}
+
+}  // namespace
+}  // namespace ghtrack
