@@ -58,7 +58,7 @@ void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface
   const double departure = restitution * approach;
   if (departure >= kRestSpeed) return;
   if (contact.on_face) {
-    state.velocity -= departure * contact.normal;
+    state.velocity = state.velocity.dot(tangent) * tangent;
     state.support = static_cast<int>(surface);
   } else {
     state.velocity += (kRestSpeed - departure) * contact.normal;  // slides off an end

@@ -1,0 +1,196 @@
+#include "sim/wind.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "sim/portable_math.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kSigma = 5.0;
+constexpr double kTau = 0.8;
+
+Wind gusty(std::uint64_t seed, const TurbulenceConfig& turbulence,
+           const Vec2& mean = Vec2::Zero()) {
+  WindConfig config;
+  config.mean = mean;
+  config.turbulence = turbulence;
+  return {config, 0.0, seed};
+}
+
+std::vector<Vec2> record(const Wind& wind, const Vec2& place, double rate, int samples) {
+  std::vector<Vec2> values;
+  for (int i = 0; i < samples; ++i) values.push_back(wind.at(place, i / rate));
+  return values;
+}
+
+double mean_product(const std::vector<Vec2>& values, int axis, int lag) {
+  double sum = 0.0;
+  const std::size_t n = values.size() - static_cast<std::size_t>(lag);
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += values[i][axis] * values[i + static_cast<std::size_t>(lag)][axis];
+  }
+  return sum / static_cast<double>(n);
+}
+
+/// Slope of the logarithm of the power spectrum over that of the frequency, from averaged
+/// periodograms of windowed segments.
+double spectral_slope(const std::vector<Vec2>& values, double rate, double from, double to) {
+  constexpr std::size_t kSegment = 1024;
+  std::vector<double> x;
+  std::vector<double> y;
+  for (double frequency = from; frequency <= to; frequency *= 1.15) {
+    double power = 0.0;
+    for (std::size_t begin = 0; begin + kSegment <= values.size(); begin += kSegment) {
+      std::complex<double> sum = 0.0;
+      for (std::size_t i = 0; i < kSegment; ++i) {
+        const double hann = 1.0 - portable::sin_cos_of_turns(static_cast<double>(i) / kSegment).cos;
+        const portable::SinCos wave =
+            portable::sin_cos_of_turns(frequency * static_cast<double>(i) / rate);
+        sum += hann * values[begin + i].x() * std::complex<double>(wave.cos, wave.sin);
+      }
+      power += std::norm(sum);
+    }
+    x.push_back(std::log(frequency));
+    y.push_back(std::log(power));
+  }
+  double mx = 0.0;
+  double my = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mx += x[i] / static_cast<double>(x.size());
+    my += y[i] / static_cast<double>(x.size());
+  }
+  double xy = 0.0;
+  double xx = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mx) * (y[i] - my);
+    xx += (x[i] - mx) * (x[i] - mx);
+  }
+  return xy / xx;
+}
+
+// Derived: Ornstein–Uhlenbeck: variance σ² within four standard errors √(2τ/T), autocorrelation 1/e
+// at τ, spectrum falling as f⁻² far above 1/2πτ. Linear interpolation between the knots takes
+// δ/3τ = 0.35 % off the variance. Noise scaled by dt instead of √dt: 1.6 % of the variance at 60
+// Hz.
+TEST(Wind, HasOrnsteinUhlenbeckGusts) {
+  constexpr int kSamples = 1 << 18;
+  const Wind wind = gusty(5, {OrnsteinUhlenbeck{kSigma, kTau, 30.0}});
+  for (const double rate : {60.0, 240.0}) {
+    const std::vector<Vec2> values = record(wind, Vec2(12.3, 4.5), rate, kSamples);
+    const double error = 4.0 * std::sqrt(2.0 * kTau / (kSamples / rate)) + 0.004;
+    for (const int axis : {0, 1}) {
+      const double variance = mean_product(values, axis, 0);
+      EXPECT_NEAR(variance / (kSigma * kSigma), 1.0, error) << rate;
+      const double correlation =
+          mean_product(values, axis, static_cast<int>(kTau * rate)) / variance;
+      EXPECT_NEAR(correlation, std::exp(-1.0), 0.5 * error + 0.01) << rate;
+    }
+    EXPECT_NEAR(spectral_slope(values, rate, 4.0 / (2.0 * portable::kPi * kTau), 60.0 / 8.0), -2.0,
+                0.15)
+        << rate;
+  }
+}
+
+// Derived: the blend of four lattice nodes keeps the variance at every place: over independent
+// seeds the variance of the mean square is 2σ⁴/n.
+TEST(Wind, HasTheSameVarianceBetweenLatticeNodes) {
+  constexpr int kSeeds = 1500;
+  for (const double x : {0.0, 7.5, 15.0, 22.0}) {
+    double squares = 0.0;
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      squares += std::pow(
+          gusty(seed, {OrnsteinUhlenbeck{kSigma, kTau, 30.0}}).at(Vec2(x, 11.0), 0.0).x(), 2);
+    }
+    EXPECT_NEAR(squares / kSeeds / (kSigma * kSigma), 1.0, 4.0 * std::sqrt(2.0 / kSeeds)) << x;
+  }
+}
+
+// Derived: MIL-F-8785C at 10 m in 60 m/s with σ_u = 0.19 × 60: L_u = 67 m, so 1.12 s; across the
+// wind σ_w = σ_u (0.177 + 0.000823 h)^0.4 and the transverse autocorrelation (1 − τ/2T) e^(−τ/T).
+TEST(Wind, HasDrydenTurbulence) {
+  constexpr double kSpeed = 60.0;
+  constexpr double kRate = 60.0;
+  constexpr int kSamples = 1 << 18;
+  const Wind wind = gusty(9, {Dryden{0.19, 10.0, {}}}, Vec2(kSpeed, 0.0));
+  std::vector<Vec2> values = record(wind, Vec2(3.0, 10.0), kRate, kSamples);
+  for (Vec2& value : values) value.x() -= kSpeed;
+  const double feet = 10.0 / 0.3048;
+  const double shape = 0.177 + 0.000823 * feet;
+  const double length = feet / std::pow(shape, 1.2) * 0.3048;
+  EXPECT_NEAR(length, 67.0, 1.0);
+
+  const double along = length / kSpeed;
+  const double across = 10.0 / kSpeed;
+  const double sigma_u = 0.19 * kSpeed;
+  const double sigma_w = sigma_u * std::pow(shape, 0.4);
+  const double error_u = 4.0 * std::sqrt(2.0 * along * kRate / kSamples);
+  const double error_w = 4.0 * std::sqrt(2.0 * across * kRate / kSamples);
+  EXPECT_NEAR(mean_product(values, 0, 0) / (sigma_u * sigma_u), 1.0, error_u + 0.003);
+  // Linear interpolation between knots of 1/120 s takes up to δ/2T more off the shorter scale.
+  EXPECT_NEAR(mean_product(values, 1, 0) / (sigma_w * sigma_w), 1.0, error_w + 0.05);
+  for (const int lag : {6, 12, 24}) {
+    const double x = lag / kRate / across;
+    EXPECT_NEAR(mean_product(values, 1, lag) / mean_product(values, 1, 0),
+                (1.0 - 0.5 * x) * std::exp(-x), 0.03)
+        << lag;
+  }
+}
+
+// Property: a gust depends on place, time and seed: not on what was asked before, nor in which
+// order.
+TEST(Wind, DoesNotDependOnTheOrderOfQuestions) {
+  const TurbulenceConfig turbulence{OrnsteinUhlenbeck{kSigma, kTau, 30.0}};
+  const Wind forwards = gusty(1, turbulence);
+  const Wind backwards = gusty(1, turbulence);
+  std::vector<Vec2> first;
+  for (int i = 0; i < 200; ++i) first.push_back(forwards.at(Vec2(3.0 * i, 1.0), 0.37 * i));
+  for (int i = 199; i >= 0; --i) {
+    EXPECT_EQ(backwards.at(Vec2(3.0 * i, 1.0), 0.37 * i), first[static_cast<std::size_t>(i)]);
+  }
+}
+
+// Derived: V r/R inside, V (R/r)^n outside, round the moving centre.
+TEST(Wind, WhirlsRoundARankineVortex) {
+  WindConfig config;
+  config.vortices = {RankineVortex{Vec2(10.0, 0.0), Vec2(2.0, 0.0), 50.0, 80.0, 0.5}};
+  const Wind wind(config, 0.0, 1);
+  EXPECT_NEAR(wind.at(Vec2(50.0, 0.0), 0.0).y(), 25.0, 1e-12);
+  EXPECT_NEAR(wind.at(Vec2(330.0, 0.0), 0.0).y(), 25.0, 1e-12);
+  EXPECT_NEAR(wind.at(Vec2(60.0, 0.0), 5.0).y(), 25.0, 1e-12);
+  EXPECT_NEAR(wind.at(Vec2(10.0, 0.0), 0.0).x(), 2.0, 1e-12);
+}
+
+// Derived: u*/κ ln(y/z0), measured from the ground; nothing below z0.
+TEST(Wind, GrowsWithTheLogarithmOfHeight) {
+  WindConfig config;
+  config.shear = LogarithmicShear{0.4, 0.1, 0.4};
+  const Wind wind(config, 100.0, 1);
+  EXPECT_NEAR(wind.at(Vec2(0.0, 110.0), 0.0).x(), std::log(100.0), 1e-12);
+  EXPECT_EQ(wind.at(Vec2(0.0, 100.05), 0.0).x(), 0.0);
+}
+
+// Derived: Dw/Dt of a steady vortex core is the centripetal acceleration −Ω² r.
+TEST(Wind, AcceleratesAlongItsStreamlines) {
+  WindConfig config;
+  config.vortices = {RankineVortex{Vec2::Zero(), Vec2::Zero(), 40.0, 80.0, 1.0}};
+  const Wind wind(config, 0.0, 1);
+  EXPECT_NEAR(wind.material_derivative(Vec2(20.0, 0.0), 3.0).x(), -0.25 * 20.0, 1e-6);
+}
+
+// Property: the parts of an interval end at every jump of the wind.
+TEST(Wind, IsIntegratedInSmoothParts) {
+  WindConfig config;
+  config.gusts = {StepGust{0.3, Vec2(1.0, 0.0)}, OneMinusCosineGust{0.5, 0.25, Vec2(1.0, 0.0)}};
+  const Wind wind(config, 0.0, 1);
+  std::vector<double> ends;
+  wind.over_smooth_parts(0.0, 1.0, [&](double, double end) { ends.push_back(end); });
+  EXPECT_EQ(ends, (std::vector<double>{0.3, 0.5, 0.75, 1.0}));
+}
+
+}  // namespace
+}  // namespace ghtrack
