@@ -1,0 +1,240 @@
+#include "sim/regimes/train.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sim/portable_math.hpp"
+#include "sim/world.hpp"
+#include "tests/sim/scenario.hpp"
+
+namespace ghtrack {
+namespace {
+
+Train stock(const std::string& name) {
+  for (const Train& train : Train::presets()) {
+    if (train.stock == name) return train;
+  }
+  throw std::invalid_argument(name);
+}
+
+// Derived: T = ∫ M dv / R(v), s = ∫ M v dv / R(v), by Simpson's rule: 898.34 s and 10301.4 m for
+// the EMU from 30 m/s. A constant force that goes on acting at rest drives it 2161 m backwards
+// instead.
+TEST(Train, CoastsToAStandWhereTheIntegralSaysAndStays) {
+  Train train = stock("RB425");
+  train.speed = 30.0;
+  train.drive = {phase_at(0.0, Coast{})};
+  double time = 0.0;
+  double distance = 0.0;
+  constexpr int kParts = 10000;
+  for (int i = 0; i <= kParts; ++i) {
+    const double v = 30.0 * i / kParts;
+    const double weight =
+        (i == 0 || i == kParts ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * 30.0 / kParts / 3.0;
+    const double slowness = train.mass * train.rotating_mass /
+                            (train.davis_a + train.davis_b * v + train.davis_c * v * v);
+    time += weight * slowness;
+    distance += weight * slowness * v;
+  }
+  EXPECT_NEAR(time, 898.34, 0.01);
+  EXPECT_NEAR(distance, 10301.4, 0.1);
+  World world(world_of({target_of(train)}), 1);
+  EXPECT_GT(state_at(world, time - 0.1).velocity.x(), 0.0);
+  EXPECT_EQ(state_at(world, time + 0.1).velocity.x(), 0.0);
+  EXPECT_NEAR(state_at(world, 1400.0).position.x(), distance, 0.01);
+}
+
+// Derived: Davis coefficients: deceleration of the coasting train at a speed, from SUMO's tables
+// (MSCFModel_Rail).
+TEST(Train, CoastsWithThePublishedDecelerations) {
+  const auto deceleration = [](const std::string& name, double speed) {
+    Train train = stock(name);
+    train.speed = speed;
+    train.drive = {phase_at(0.0, Coast{})};
+    World world(world_of({target_of(train)}), 1);
+    return -state_at(world, 0.0).acceleration.x();
+  };
+  EXPECT_NEAR(deceleration("ICE3", 83.3), 0.164, 0.001);
+  EXPECT_NEAR(deceleration("ICE1", 69.4), 0.128, 0.001);
+  EXPECT_NEAR(deceleration("RB425", 44.4), 0.130, 0.001);
+  EXPECT_NEAR(deceleration("RB628", 33.3), 0.123, 0.001);
+  EXPECT_NEAR(deceleration("RE", 44.4), 0.086, 0.001);
+  EXPECT_NEAR(deceleration("freight", 15.0), 0.0157, 0.0005);
+}
+
+// Property: a braked train stops and stays; the speed is never negative. A brake that is a force
+// ends at −25 m/s.
+TEST(Train, StopsAndRemainsStopped) {
+  for (const BrakeKind brake : {BrakeKind::kService, BrakeKind::kEmergency}) {
+    Train train = single_car(0.0, 40.0, {phase_at(2.0, Brake{brake})});
+    World world(world_of({target_of(train)}), 1);
+    for (int i = 0; i < 2000; ++i) {
+      EXPECT_GE(state_at(world, 0.1 * i).velocity.x(), 0.0);
+    }
+    EXPECT_EQ(state_at(world, 200.0).velocity.x(), 0.0);
+    EXPECT_EQ(state_at(world, 200.0).acceleration.x(), 0.0);
+  }
+}
+
+// Derived: v = a t. Box2D's sleeping keeps a train for ever that starts at less than 0.02 m/s².
+TEST(Train, StartsGentlyFromAHalt) {
+  Train train = single_car(0.0, 0.0, {phase_at(2.0, Accelerate{0.005})});
+  World world(world_of({target_of(train)}), 1);
+  EXPECT_EQ(state_at(world, 2.0).velocity.x(), 0.0);
+  EXPECT_NEAR(state_at(world, 12.0).velocity.x(), 0.05, 1e-9);
+}
+
+// Property: negative acceleration slows down to a halt; nothing reverses by itself.
+TEST(Train, HaltsUnderNegativeAcceleration) {
+  Train train = single_car(0.0, 2.0, {phase_at(1.0, Accelerate{-0.5})});
+  World world(world_of({target_of(train)}), 1);
+  EXPECT_NEAR(state_at(world, 3.0).velocity.x(), 1.0, 1e-9);
+  EXPECT_EQ(state_at(world, 10.0).velocity.x(), 0.0);
+  EXPECT_NEAR(state_at(world, 10.0).position.x(), 2.0 + 4.0, 1e-6);
+}
+
+// Property: traction backwards reverses a train; a driver can keep a speed backwards.
+TEST(Train, Reverses) {
+  Train train =
+      single_car(0.0, 0.0, {phase_at(1.0, Traction{-0.5}), phase_at(20.0, TargetSpeed{-5.0})});
+  World world(world_of({target_of(train)}), 1);
+  EXPECT_LT(state_at(world, 20.0).velocity.x(), -5.0);
+  EXPECT_NEAR(state_at(world, 80.0).velocity.x(), -5.0, 1e-6);
+}
+
+// Derived: at rest on a slope the brakes hold; released, a = g i − A/m once it outweighs the
+// constant part of the resistance.
+TEST(Train, RollsDownASlopeOnlyWhenReleased) {
+  Train train = single_car(0.0, 0.0, {phase_at(5.0, Coast{})});
+  train.grades = {Grade{-1000.0, 1000.0, -0.01}};
+  World world(world_of({target_of(train)}), 1);
+  EXPECT_EQ(state_at(world, 5.0).velocity.x(), 0.0);
+  const double wanted =
+      (kStandardGravity * 0.01 - train.davis_a / train.mass) / train.rotating_mass;
+  EXPECT_NEAR(state_at(world, 5.01).acceleration.x(), wanted, 1e-4);
+  train.grades = {Grade{-1000.0, 1000.0, -0.001}};  // weaker than A
+  World flat(world_of({target_of(train)}), 1);
+  EXPECT_EQ(state_at(flat, 60.0).velocity.x(), 0.0);
+}
+
+// Derived: μ = 7.5/(V + 44) + 0.161 with V in km/h (Curtius & Kniffler): 0.331 at a stand. Wet
+// rails limit the start of a train, dry ones its motors.
+TEST(Train, StartsAsFastAsAdhesionPermits) {
+  Train train = single_car(0.0, 0.0, {phase_at(0.0, Traction{1.0})});
+  train.adhesion = 0.3;
+  World wet(world_of({target_of(train)}), 1);
+  const double grip = 0.3 * (7.5 / 44.0 + 0.161) * train.adhesive_mass * kStandardGravity;
+  EXPECT_NEAR(state_at(wet, 0.0).acceleration.x(),
+              (grip - train.davis_a) / (train.mass * train.rotating_mass), 1e-9);
+}
+
+// Property: the driver approaches a speed without overshoot and keeps it.
+TEST(Train, KeepsATargetSpeed) {
+  Train train =
+      single_car(0.0, 10.0, {phase_at(1.0, TargetSpeed{25.0}), phase_at(120.0, TargetSpeed{15.0})});
+  World world(world_of({target_of(train)}), 1);
+  for (int i = 0; i < 120; ++i) EXPECT_LE(state_at(world, i).velocity.x(), 25.0 + 1e-9);
+  EXPECT_NEAR(state_at(world, 120.0).velocity.x(), 25.0, 1e-3);
+  EXPECT_NEAR(state_at(world, 240.0).velocity.x(), 15.0, 1e-3);
+}
+
+// Property: a train stops at the station, waits and leaves at the next phase.
+TEST(Train, StopsAtAStationAndLeaves) {
+  Train train = single_car(
+      0.0, 30.0, {phase_at_position(100.0, StationStop{1500.0}), phase_at(150.0, Accelerate{0.3})});
+  World world(world_of({target_of(train)}), 1);
+  double hardest = 0.0;
+  for (int i = 0; i < 1490; ++i) {
+    hardest = std::max(hardest, -state_at(world, 0.1 * i).acceleration.x());
+  }
+  EXPECT_LE(hardest, train.service_brake + 0.03);
+  const TruthState waiting = state_at(world, 149.0);
+  EXPECT_NEAR(waiting.position.x(), 1500.0, 0.05);
+  EXPECT_EQ(waiting.velocity.x(), 0.0);
+  EXPECT_NEAR(state_at(world, 160.0).velocity.x(), 3.0, 1e-6);
+}
+
+// Derived: a phase at a position begins there: v² = v0² + 2 a (s − s0).
+TEST(Train, BeginsAPhaseAtItsPlace) {
+  Train train = single_car(0.0, 20.0, {phase_at_position(500.0, Accelerate{-0.4})});
+  World world(world_of({target_of(train)}), 1);
+  const TruthState state = state_at(world, 40.0);
+  EXPECT_NEAR(state.velocity.x(), std::sqrt(400.0 - 0.8 * (state.position.x() - 500.0)), 1e-6);
+}
+
+// Property: run-out: with slack the cars start one after the other, and the gaps stay within the
+// play and the springs' stroke; in the end all have one speed.
+TEST(Train, TakesUpSlackCarByCar) {
+  Train train = stock("freight");
+  train.cars = 10;
+  train.couplers = Couplers{3e7, 1e6, 0.025};
+  train.track_every_car = true;
+  train.drive = {phase_at(0.0, Accelerate{0.1})};
+  World world(world_of({target_of(train)}), 1);
+  std::vector<double> started(10, -1.0);
+  for (int i = 0; i <= 1200; ++i) {
+    const TruthSnapshot truth = world.sample(0.05 * i);
+    for (std::size_t k = 0; k < 10; ++k) {
+      if (started[k] < 0.0 && truth.objects[k].velocity.x() > 0.01) started[k] = 0.05 * i;
+      if (k == 0) continue;
+      const double gap = truth.objects[k - 1].position.x() - truth.objects[k].position.x();
+      EXPECT_NEAR(gap, train.car_length, 0.04);
+    }
+  }
+  EXPECT_TRUE(std::is_sorted(started.begin(), started.end()));
+  EXPECT_GT(started[9], started[0] + 1.0);
+  const TruthSnapshot truth = world.sample(60.0);
+  EXPECT_NEAR(truth.objects[9].velocity.x(), truth.objects[0].velocity.x(), 0.05);
+}
+
+// Property: a braked sprung train comes to rest as a whole and stays.
+TEST(Train, StopsWithSpringsBetweenItsCars) {
+  Train train = stock("freight");
+  train.cars = 6;
+  train.speed = 10.0;
+  train.couplers = Couplers{2e7, 5e5, 0.05};
+  train.drive = {phase_at(1.0, Brake{BrakeKind::kEmergency})};
+  train.track_every_car = true;
+  World world(world_of({target_of(train)}), 1);
+  const TruthSnapshot stopped = world.sample(60.0);
+  const TruthSnapshot later = world.sample(70.0);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(later.objects[i].velocity.x(), 0.0);
+    EXPECT_EQ(later.objects[i].position, stopped.objects[i].position);
+  }
+}
+
+// Derived: nothing that a train does exceeds its brakes and tractive effort along, v²/R across the
+// track. Chords of 20 m on R = 300 m look like 60 m/s².
+TEST(Train, NeverAcceleratesMoreThanItsTrackDemands) {
+  Train train = single_car(0.0, 15.0, {phase_at(20.0, Accelerate{0.4}), phase_at(40.0, Brake{})});
+  train.track = {Straight{100.0}, Curve{300.0, 90.0, {}, 60.0}, Curve{-250.0, 45.0, {}, 50.0}};
+  World world(world_of({target_of(train)}), 1);
+  constexpr double kRate = 60.0;
+  TruthState before = state_at(world, 0.0);
+  for (int i = 1; i < 80 * 60; ++i) {
+    const TruthState now = state_at(world, i / kRate);
+    const double acceleration = (now.velocity - before.velocity).norm() * kRate;
+    const double speed = now.velocity.norm();
+    EXPECT_LE(acceleration, 1.05 * (1.0 + speed * speed / 250.0)) << i / kRate;
+    before = now;
+  }
+}
+
+// Property: the speed on a closed loop does not suffer from its curvature (Box2D with a projected
+// velocity loses 3.3 m along the track in a minute), and the train comes back to its place.
+TEST(Train, ComesBackOnALoop) {
+  Train train = single_car(0.0, 20.0);
+  train.track = {Straight{200.0}, Curve{100.0, 180.0, {}, 0.0}, Straight{200.0},
+                 Curve{100.0, 180.0, {}, 0.0}};
+  World world(world_of({target_of(train)}), 1);
+  const double lap = (400.0 + 2.0 * portable::kPi * 100.0) / 20.0;
+  EXPECT_NEAR(state_at(world, lap).position.norm(), 0.0, 1e-9);
+  EXPECT_NEAR(state_at(world, lap).velocity.norm(), 20.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace ghtrack
