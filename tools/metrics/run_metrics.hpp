@@ -17,11 +17,11 @@
 namespace ghtrack {
 
 struct RunMetricsOptions {
-  double sigma = 1.0;                    // noise of the first sensor per axis [m]
-  std::optional<double> cutoff;          // GOSPA's c [m]; 5 sigma if not given
-  double order = 2.0;                    // GOSPA's p
-  double alpha = 2.0;                    // GOSPA's alpha
-  std::optional<double> match_distance;  // for MOTA, IDF1, HOTA [m]; c if not given
+  double sigma = 1.0;                                   // noise of the first sensor per axis [m]
+  std::optional<double> cutoff = std::nullopt;          // GOSPA's c [m]; 5 sigma if not given
+  double order = 2.0;                                   // GOSPA's p
+  double alpha = 2.0;                                   // GOSPA's alpha
+  std::optional<double> match_distance = std::nullopt;  // for MOTA, IDF1, HOTA [m]; c if not given
 
   GospaOptions gospa() const { return {cutoff.value_or(5.0 * sigma), order, alpha}; }
   double matching() const { return match_distance.value_or(gospa().cutoff); }

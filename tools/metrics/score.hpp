@@ -15,8 +15,9 @@
 namespace ghtrack {
 
 struct ScoreOptions {
-  GospaOptions gospa;                    // c in metres, or in pixels for boxes
-  std::optional<double> match_distance;  // of points, for MOTA, IDF1 and HOTA; c if not given
+  GospaOptions gospa;  // c in metres, or in pixels for boxes
+  std::optional<double> match_distance =
+      std::nullopt;  // of points, for MOTA, IDF1 and HOTA; c if not given
 
   double matching() const { return match_distance.value_or(gospa.cutoff); }
 };

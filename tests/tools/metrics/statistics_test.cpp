@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tools/metrics/batch_means.hpp"
+#include "tools/metrics/quantiles.hpp"
+
+namespace ghtrack {
+namespace {
+
+// Derived: χ² with two degrees of freedom is exponential with mean 2.
+TEST(ChiSquareQuantile, IsALogarithmForTwoDegrees) {
+  for (const double probability : {1e-6, 0.025, 0.5, 0.95, 0.975, 0.999999}) {
+    const double exact = -2.0 * std::log1p(-probability);
+    EXPECT_NEAR(chi_square_quantile(probability, 2.0), exact, 1e-10 * exact) << probability;
+  }
+}
+
+// Derived: with one degree it is the square of a normal variable, with four
+// P = 1 − e^(−x/2) (1 + x/2), and the percentiles of Abramowitz & Stegun table 26.8.
+TEST(ChiSquareQuantile, AgreesWithClosedFormsAndTables) {
+  EXPECT_NEAR(chi_square_quantile(std::erf(1.0 / std::numbers::sqrt2), 1.0), 1.0, 1e-9);
+  const double x = chi_square_quantile(0.3, 4.0);
+  EXPECT_NEAR(1.0 - std::exp(-x / 2.0) * (1.0 + x / 2.0), 0.3, 1e-12);
+  EXPECT_NEAR(chi_square_quantile(0.975, 10.0), 20.4832, 1e-4);
+  EXPECT_NEAR(chi_square_quantile(0.025, 10.0), 3.24697, 1e-5);
+  EXPECT_NEAR(chi_square_quantile(0.995, 100.0), 140.169, 1e-3);
+}
+
+// Derived: for many degrees the variable is normal, with mean n and variance 2 n; the next term of
+// the expansion is 2 (z² − 1) / 3 (Abramowitz & Stegun 26.4.18 expanded).
+TEST(ChiSquareQuantile, BecomesNormalForManyDegrees) {
+  const double n = 1e5;
+  const double z = 1.959963984540054;
+  EXPECT_NEAR(chi_square_quantile(0.975, n), n + z * std::sqrt(2.0 * n) + 2.0 / 3.0 * (z * z - 1.0),
+              0.02);
+}
+
+// Derived: Cauchy for one degree, t / √(2 + t²) = 2 P − 1 for two; Abramowitz & Stegun table 26.10.
+TEST(StudentQuantile, AgreesWithClosedFormsAndTables) {
+  EXPECT_NEAR(student_quantile(0.9, 1), std::tan(0.4 * std::numbers::pi), 1e-9);
+  EXPECT_NEAR(student_quantile(0.975, 2), 0.95 * std::sqrt(2.0 / (1.0 - 0.95 * 0.95)), 1e-9);
+  EXPECT_NEAR(student_quantile(0.975, 5), 2.571, 1e-3);
+  EXPECT_NEAR(student_quantile(0.975, 10), 2.228, 1e-3);
+  EXPECT_NEAR(student_quantile(0.025, 19), -2.093, 1e-3);
+}
+
+// Property: the mean is that of all values, whatever the batches.
+TEST(BatchMeans, KeepsTheMeanOfEverything) {
+  BatchMeans means;
+  EXPECT_FALSE(means.confidence95().has_value());
+  for (int i = 1; i <= 12345; ++i) means.add(i);
+  EXPECT_EQ(means.count(), 12345);
+  EXPECT_DOUBLE_EQ(means.mean(), 12346.0 / 2.0);
+}
+
+/// How often the 95 % interval of 400 values, each `memory` times its predecessor plus noise, holds
+/// the true mean 0.
+double coverage(double memory, int runs) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> noise;
+  int held = 0;
+  for (int run = 0; run < runs; ++run) {
+    BatchMeans means;
+    double value = noise(random) / std::sqrt(1.0 - memory * memory);
+    for (int i = 0; i < 400; ++i) {
+      means.add(value);
+      value = memory * value + noise(random);
+    }
+    const auto interval = means.confidence95();
+    held += interval->low <= 0.0 && 0.0 <= interval->high ? 1 : 0;
+  }
+  return static_cast<double>(held) / runs;
+}
+
+// Property: coverage of white noise within 5 standard errors of 95 %; of a series that remembers
+// about ten values still above 85 %, where an interval that took them as independent holds 45 %.
+TEST(BatchMeans, CoversTheMeanOfACorrelatedSeries) {
+  constexpr int kRuns = 2000;
+  const double standard_error = std::sqrt(0.95 * 0.05 / kRuns);
+  EXPECT_NEAR(coverage(0.0, kRuns), 0.95, 5.0 * standard_error);
+  EXPECT_GT(coverage(0.9, kRuns), 0.85);
+}
+
+// Derived: a first-order series with memory m is worth n (1 − m) / (1 + m) independent values; the
+// estimate from 10 to 19 batches scatters by a third or so, and is averaged over 300 runs.
+TEST(BatchMeans, CountsIndependentValues) {
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> noise;
+  double inverse = 0.0;
+  for (int run = 0; run < 300; ++run) {
+    BatchMeans means;
+    double value = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+      value = 0.5 * value + noise(random);
+      means.add(value);
+    }
+    inverse += 1.0 / means.effective_count() / 300.0;
+  }
+  EXPECT_NEAR(inverse * 1000.0, 1.0, 0.12);
+}
+
+}  // namespace
+}  // namespace ghtrack
