@@ -10,6 +10,18 @@
 namespace ghtrack::schema {
 namespace {
 
+/// "1e6" and "1e-9" rather than "1e+06" and "1e-09".
+std::string readable(double value) {
+  std::string text = fmt::format("{}", value);
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  const std::size_t sign = exponent + 1;
+  const std::size_t digits = std::min(text.find_first_not_of('0', sign + 1), text.size() - 1);
+  text.erase(sign + 1, digits - sign - 1);
+  if (text[sign] == '+') text.erase(sign, 1);
+  return text;
+}
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// "010" is 8 to some readers and 10 to others.
@@ -67,13 +79,13 @@ std::string allowed_text(const FieldInfo& info) {
   const bool below = std::isfinite(info.below);
   std::string text;
   if (from && to) {
-    text = fmt::format("from {} to {}", shortest(info.minimum), shortest(info.maximum));
+    text = fmt::format("from {} to {}", readable(info.minimum), readable(info.maximum));
   } else {
-    if (above) text = fmt::format("above {}", shortest(info.above));
-    if (from) text = fmt::format("at least {}", shortest(info.minimum));
+    if (above) text = fmt::format("above {}", readable(info.above));
+    if (from) text = fmt::format("at least {}", readable(info.minimum));
     if (!text.empty() && (to || below)) text += " and ";
-    if (to) text += fmt::format("at most {}", shortest(info.maximum));
-    if (below) text += fmt::format("below {}", shortest(info.below));
+    if (to) text += fmt::format("at most {}", readable(info.maximum));
+    if (below) text += fmt::format("below {}", readable(info.below));
   }
   return text.empty() ? text : text + unit_suffix(info);
 }

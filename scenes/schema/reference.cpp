@@ -59,14 +59,21 @@ const Type& innermost(const Type& type, std::string& path) {
   return type;
 }
 
+std::string kind_of(const Type& type);
+
+std::string plural_of(const Type& type) {
+  const auto* const list = std::get_if<ListType>(&type.shape);
+  return list != nullptr ? kind_of(type) + " each" : kind_of(type) + "s";
+}
+
 std::string kind_of(const Type& type) {
   if (const auto* some = std::get_if<OptionalType>(&type.shape)) return kind_of(some->item());
   if (const auto* map = std::get_if<MapType>(&type.shape)) {
-    return "mapping to " + kind_of(map->item());
+    return "names and " + plural_of(map->item());
   }
   if (const auto* list = std::get_if<ListType>(&type.shape)) {
-    return list->fixed_size > 0 ? fmt::format("{} × {}", list->fixed_size, kind_of(list->item()))
-                                : "list of " + kind_of(list->item());
+    return list->fixed_size > 0 ? fmt::format("{} {}", list->fixed_size, plural_of(list->item()))
+                                : "list of " + plural_of(list->item());
   }
   if (const auto* fields = std::get_if<StructType>(&type.shape)) {
     const FieldType* const scalar = fields->find(FieldType::Role::kScalar);
@@ -83,7 +90,7 @@ class ReferenceWriter {
     const auto* fields = std::get_if<StructType>(&type.shape);
     if (fields != nullptr) {
       known_[&type] = path;
-      sections_ += fmt::format("\n### {}\n\n", path.empty() ? "Top level" : path);
+      sections_ += fmt::format("\n### {}\n\n", path.empty() ? "Top level" : code(path));
       if (!fields->about.empty()) sections_ += sentence(fields->about) + "\n\n";
       std::vector<Below> below;
       const std::string rows = struct_rows(*fields, object, path, below);
@@ -92,7 +99,7 @@ class ReferenceWriter {
       for (const Below& section : below) add_below(section);
     } else if (const auto* variant = std::get_if<VariantType>(&type.shape)) {
       known_[&type] = path;
-      sections_ += fmt::format("\n### {}\n\nA mapping with exactly one of these keys.\n\n", path);
+      sections_ += fmt::format("\n### {}\n\nA mapping with exactly one of these keys.\n\n", code(path));
       std::vector<Below> below;
       sections_ += kTableHead + alternative_rows(*variant, object, path, below);
       for (const Below& section : below) add_below(section);
@@ -114,7 +121,10 @@ class ReferenceWriter {
 
   static std::string sentence(std::string_view text) {
     std::string result(text);
-    result.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(result.front())));
+    const bool is_formula = text.size() > 1 && text[1] == '(';
+    if (!is_formula) {
+      result.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(result.front())));
+    }
     return result.ends_with('.') ? result : result + ".";
   }
 
@@ -148,7 +158,9 @@ class ReferenceWriter {
     const bool bounded = info.max_items < FieldInfo{}.max_items;
     if (info.min_items > 0 || bounded) {
       if (!text.empty()) text += ", ";
-      text += bounded ? fmt::format("{} to {} items", info.min_items, info.max_items)
+      text += bounded ? info.min_items == 0
+                          ? fmt::format("at most {} items", info.max_items)
+                          : fmt::format("{} to {} items", info.min_items, info.max_items)
                       : fmt::format("at least {} items", info.min_items);
     }
     return text;
@@ -212,11 +224,13 @@ class ReferenceWriter {
         const auto& kinds = std::get<VariantType>(field.type().shape);
         rows += row("", "**one of:**", "", "", "", field.info.meaning);
         rows += alternative_rows(kinds, value, path, below);
-      } else if (field.role == FieldType::Role::kTagged) {
-        rows += tagged_rows(field, value, path, below);
-      } else {
+      } else if (field.role != FieldType::Role::kTagged) {
         rows += field_row(field, type, object, path, below);
       }
+    }
+    for (const FieldType& field : type.fields) {
+      if (field.role != FieldType::Role::kTagged) continue;
+      rows += tagged_rows(field, field.member(object), path, below);
     }
     return rows;
   }

@@ -23,6 +23,43 @@ struct SceneFile {
   }
 };
 
+constexpr const char* kReferenceIntroduction = R"(# Scene files
+
+<!-- Generated from the descriptions in the sources; `cmake --build <folder> --target scene_reference`
+     writes it and scene.schema.json anew. -->
+
+A scene file says what moves, what looks at it and what tracks it. It is YAML, read strictly: every
+key must be known, every number finite and within its bounds, and all that is wrong is reported at
+once, each with its line and column. Anchors, aliases, tags and `null` are not used; leave a key out
+to get its default. Lengths are in metres, times in seconds; x points to the right, y upwards, angles
+turn counter-clockwise.
+
+```yaml
+# yaml-language-server: $schema=./scene.schema.json
+name: first flight
+duration: 5
+world: {wind: {mean: [3, 0]}, ground: {height: 0}}
+targets:
+  - {name: fly ball, ball: {type: baseball, position: [0, 1], velocity: [25, 20]}}
+  - {name: party balloon, balloon: {type: latex-11-inch, position: [30, 5]}}
+sensors:
+  - {name: camera, rate: 30, noise: 0.3}
+tracker:
+  filters:
+    ball: {ghk: {design: tracking-index, process_noise: 20}}
+    default: {gh: {g: 0.6, h: 0.2}}
+```
+
+With the first line an editor completes keys and shows their meaning. `ghtrack check FILE` reads a
+file and says what is wrong with it; `--set KEY=VALUE` changes a value for one run, with keys as in
+the messages: `--set targets[0].ball.mass=0.2` or, by name, `--set "targets[fly ball].ball.mass=0.2"`.
+
+In the tables, `[]` in a path stands for an item of a list and `*` for a name of your choice. A list
+or a group of names that is given replaces its default as a whole.
+
+## Keys
+)";
+
 void name_sensors(std::vector<SensorConfig>& sensors) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     if (sensors[i].name.empty()) sensors[i].name = fmt::format("sensor {}", i + 1);
@@ -54,6 +91,8 @@ std::string scene_json_schema() {
   return schema::json_schema(schema::type_of<SceneFile>(), "ghtrack scene").dump(2) + "\n";
 }
 
-std::string scene_reference() { return schema::reference_tables(schema::type_of<SceneFile>()); }
+std::string scene_reference() {
+  return kReferenceIntroduction + schema::reference_tables(schema::type_of<SceneFile>());
+}
 
 }  // namespace ghtrack
