@@ -99,7 +99,8 @@ class ReferenceWriter {
       for (const Below& section : below) add_below(section);
     } else if (const auto* variant = std::get_if<VariantType>(&type.shape)) {
       known_[&type] = path;
-      sections_ += fmt::format("\n### {}\n\nA mapping with exactly one of these keys.\n\n", code(path));
+      sections_ +=
+          fmt::format("\n### {}\n\nA mapping with exactly one of these keys.\n\n", code(path));
       std::vector<Below> below;
       sections_ += kTableHead + alternative_rows(*variant, object, path, below);
       for (const Below& section : below) add_below(section);
@@ -159,8 +160,8 @@ class ReferenceWriter {
     if (info.min_items > 0 || bounded) {
       if (!text.empty()) text += ", ";
       text += bounded ? info.min_items == 0
-                          ? fmt::format("at most {} items", info.max_items)
-                          : fmt::format("{} to {} items", info.min_items, info.max_items)
+                            ? fmt::format("at most {} items", info.max_items)
+                            : fmt::format("{} to {} items", info.min_items, info.max_items)
                       : fmt::format("at least {} items", info.min_items);
     }
     return text;

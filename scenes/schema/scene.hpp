@@ -57,7 +57,9 @@ struct WorldScene {
   template <class Report>
   void check(Report&& report) const {
     if (const auto flaw = flaw_of_name(name); !flaw.empty()) report("name", flaw);
-    report_repeated_names(targets, "targets", report);
+    for (const TargetProblem& problem : find_problems(targets)) {
+      report("targets[" + std::to_string(problem.target) + "]", problem.message);
+    }
     report_repeated_names(sensors, "sensors", report);
     if (!video) return;
     if (video->from >= duration) report("video.from", "must be before the end of the run");
@@ -68,8 +70,11 @@ struct WorldScene {
     check_target("video.close_up", video->close_up);
   }
 
+  /// Is there a target of that name, given by the scene or by name_targets()?
   bool has_target(std::string_view target) const {
-    for (const Target& candidate : targets) {
+    std::vector<Target> named = targets;
+    name_targets(named);
+    for (const Target& candidate : named) {
       if (candidate.name == target) return true;
     }
     return false;

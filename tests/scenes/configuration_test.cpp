@@ -138,9 +138,10 @@ TEST(Configuration, NamesTheOverrideThatIsWrong) {
               ElementsAre("--set cars.x: error: there is nothing that could hold 'x' in the file"));
   EXPECT_THAT(errors(kEverything, {"items[7].name=x"}),
               ElementsAre("--set items[7].name: error: there is no item [7]; the list has 3"));
-  EXPECT_THAT(errors("items: [{name: ball, gh: {}}]", {"items[bal].name=x"}),
-              ElementsAre("--set items[bal].name: error: 'bal' is no item of the list; did you mean "
-                          "'ball'? known names: ball"));
+  EXPECT_THAT(
+      errors("items: [{name: ball, gh: {}}]", {"items[bal].name=x"}),
+      ElementsAre("--set items[bal].name: error: 'bal' is no item of the list; did you mean "
+                  "'ball'? known names: ball"));
   std::string deep = "a";
   for (int i = 0; i < 100'000; ++i) deep += ".a";
   EXPECT_THAT(errors("cars: 1", {deep + "=1"}), ElementsAre(HasSubstr("error: not a key")));

@@ -1,0 +1,55 @@
+"""Checks scenes/scene.schema.json against the scenes that the reader accepts and refuses.
+
+Usage: check_schema.py SOURCE_FOLDER. Needs python3-jsonschema and python3-yaml.
+"""
+
+import json
+import pathlib
+import sys
+
+import jsonschema
+import yaml
+
+# What a schema cannot say: conditions between values, and the text of the file itself.
+BEYOND_A_SCHEMA = {
+    "clutter_without_field_of_view", "curve_without_length", "field_of_view_upside_down",
+    "name_with_a_slash", "odd_video_size", "repeated_sensor_name", "repeated_target_name",
+    "series_repeated_filter_name", "series_truth_of_another_length", "train_drive_without_time",
+    "unstable_gains", "video_after_the_end", "video_follows_nobody", "video_from_after_to",
+    "empty_name", "long_text", "balls_inside_each_other",
+    # YAML's own matters, and numbers that only a YAML 1.1 reader takes for numbers:
+    "anchor_and_alias", "duplicate_key", "merge_key", "number_with_leading_zero", "number_in_hex",
+    "number_with_plus", "number_with_underscore", "not_finite", "second_document", "tag",
+    "too_small_for_a_double", "yes_for_true", "quote_over_two_lines",
+}
+
+
+def load(path):
+    return yaml.safe_load(path.read_bytes())
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    schema = json.loads((root / "scenes/scene.schema.json").read_text())
+    jsonschema.Draft7Validator.check_schema(schema)
+    validator = jsonschema.Draft7Validator(schema)
+    wrong = []
+    for folder in ("scenes", "tests/scenes/accepted"):
+        for path in sorted((root / folder).rglob("*.yaml")):
+            error = jsonschema.exceptions.best_match(validator.iter_errors(load(path)))
+            if error:
+                wrong.append(f"{path}: the schema refuses it: {error.message[:200]}")
+    for path in sorted((root / "tests/scenes/rejected").glob("*.yaml")):
+        if path.stem in BEYOND_A_SCHEMA:
+            continue
+        try:
+            document = load(path)
+        except yaml.YAMLError:
+            continue
+        if validator.is_valid(document):
+            wrong.append(f"{path}: the schema accepts it")
+    print("\n".join(wrong))
+    return 1 if wrong else 0
+
+
+sys.exit(main())
