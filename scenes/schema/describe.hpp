@@ -63,9 +63,8 @@ concept HasMisnomers = requires {
 
 template <std::integral T>
 IntegerType integer_type() {
-  return {.is_signed = std::is_signed_v<T>,
-          .range = "from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
-                   std::to_string(std::numeric_limits<T>::max()),
+  return {.lowest = std::to_string(std::numeric_limits<T>::min()),
+          .highest = std::to_string(std::numeric_limits<T>::max()),
           .parse =
               [](std::string_view text, void* value) {
                 const char* const end = text.data() + text.size();

@@ -96,7 +96,8 @@ class SchemaWriter {
             return schema;
           } else if constexpr (std::is_same_v<Shape, IntegerType>) {
             Json schema{{"type", "integer"}};
-            if (!shape.is_signed) schema["minimum"] = 0;
+            schema["minimum"] = Json::parse(shape.lowest);
+            schema["maximum"] = Json::parse(shape.highest);
             add_bounds(schema, info);
             return schema;
           } else if constexpr (std::is_same_v<Shape, BooleanType>) {

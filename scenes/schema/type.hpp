@@ -24,8 +24,8 @@ struct BooleanType {};  // bool
 struct TextType {};     // std::string
 
 struct IntegerType {
-  bool is_signed;
-  std::string range;  // "from 0 to 255": what the C++ type can hold
+  std::string lowest;  // what the C++ type can hold
+  std::string highest;
   std::errc (*parse)(std::string_view text, void* value);
   std::string (*print)(const void* value);
   double (*approximate)(const void* value);

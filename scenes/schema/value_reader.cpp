@@ -199,7 +199,7 @@ void ValueReader::read_integer(const Node& node, const IntegerType& type, void* 
   if (!expect(node, Node::Kind::kScalar, what)) return;
   double real = 0.0;
   const bool is_number = !node.quoted && parse_real(node.text, real) != std::errc::invalid_argument;
-  const bool too_low = is_number && !type.is_signed && node.text.starts_with('-');
+  const bool too_low = is_number && type.lowest == "0" && node.text.starts_with('-');
   const std::errc error = too_low     ? std::errc::result_out_of_range
                           : is_number ? type.parse(node.text, object)
                                       : std::errc::invalid_argument;
@@ -207,7 +207,8 @@ void ValueReader::read_integer(const Node& node, const IntegerType& type, void* 
     report(node, fmt::format("must be {}, found {}", allowed_text(info), node.text));
   } else if (error == std::errc::result_out_of_range) {
     const std::string allowed = allowed_text(info);
-    report(node, fmt::format("must be {}, found {}", allowed.empty() ? type.range : allowed,
+    const std::string range = fmt::format("from {} to {}", type.lowest, type.highest);
+    report(node, fmt::format("must be {}, found {}", allowed.empty() ? range : allowed,
                              found_text(node)));
   } else if (error != std::errc()) {
     report(node, fmt::format("must be {}, found {}", what, found_text(node)));

@@ -5,6 +5,7 @@ Usage: check_schema.py SOURCE_FOLDER. Needs python3-jsonschema and python3-yaml.
 
 import json
 import pathlib
+import re
 import sys
 
 import jsonschema
@@ -24,8 +25,16 @@ BEYOND_A_SCHEMA = {
 }
 
 
+class Loader(yaml.SafeLoader):
+    """Takes 1e-3 for a number, as YAML 1.2 does and YAML 1.1 does not."""
+
+
+Loader.add_implicit_resolver("tag:yaml.org,2002:float",
+                             re.compile(r"^-?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$"), list("-.0123456789"))
+
+
 def load(path):
-    return yaml.safe_load(path.read_bytes())
+    return yaml.load(path.read_bytes(), Loader)
 
 
 def main():
