@@ -71,7 +71,8 @@ class Backdrop {
     const Viewport& area = view_.viewport();
     for (const double x : multiples(step_, world_.min.x(), world_.max.x())) {
       const Pixel pen{view_.to_pixel({x, 0.0}).x, area.bottom() - style_.length(6)};
-      if (pen.x > area.left + style_.length(44) && pen.x < area.right() - step_ * view_.scale() - style_.length(44))
+      if (pen.x > area.left + style_.length(44) &&
+          pen.x < area.right() - step_ * view_.scale() - style_.length(44))
         canvas_.text(fonts_.regular, tick_label(x, step_), letters, pen, color,
                      Canvas::Align::kCentre);
     }

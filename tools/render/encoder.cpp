@@ -38,11 +38,10 @@ int fourcc(const fs::path& file) {
   const std::string extension = file.extension().string();
   if (extension == ".mp4") return cv::VideoWriter::fourcc('a', 'v', 'c', '1');
   if (extension == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-  if (extension == ".webm") return cv::VideoWriter::fourcc('V', 'P', '9', '0');
   if (extension == ".mkv") return cv::VideoWriter::fourcc('F', 'F', 'V', '1');
   throw OutputError("cannot write " + file.extension().string().substr(1) +
                     " without the program ffmpeg, which is not installed; "
-                    "available: mp4, avi, webm, mkv, png");
+                    "available: mp4, avi, mkv, png");
 }
 
 class OpenCvEncoder : public ImageEncoder {

@@ -22,7 +22,7 @@ class ImageEncoder {
 std::unique_ptr<ImageEncoder> make_encoder(const VideoOptions& options,
                                            const std::filesystem::path& file);
 
-/// OpenCV's FFmpeg backend: mp4, avi, webm, mkv.
+/// OpenCV's FFmpeg backend: mp4, avi, mkv.
 std::unique_ptr<ImageEncoder> make_opencv_encoder(const VideoOptions& options,
                                                   const std::filesystem::path& file);
 

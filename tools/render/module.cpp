@@ -49,6 +49,19 @@ RenderModule& render_module() {
   return module;
 }
 
-void write_plot(const fs::path& path, const Plot& plot) { render_module().write_plot(path, plot); }
+void write_plot(const fs::path& path, const Plot& plot) {
+  constexpr int kSmallestSide = 200;
+  constexpr int kLargestSide = 7680;
+  check_output_path(path, {"png"});
+  if (std::min(plot.width, plot.height) < kSmallestSide ||
+      std::max(plot.width, plot.height) > kLargestSide)
+    throw RequestError("a plot has " + std::to_string(kSmallestSide) + " to " +
+                       std::to_string(kLargestSide) + " pixels a side");
+  for (const PlotSeries& series : plot.series)
+    if (series.x.size() != series.y.size())
+      throw RequestError("the series '" + series.name + "' has " + std::to_string(series.x.size()) +
+                         " x and " + std::to_string(series.y.size()) + " y");
+  render_module().write_plot(path, plot);
+}
 
 }  // namespace ghtrack::render

@@ -91,7 +91,8 @@ void commit_file(const fs::path& partial, const fs::path& path) {
 std::string_view space_problem(const fs::path& folder) {
   std::error_code error;
   const fs::space_info space = fs::space(folder.empty() ? fs::path(".") : folder, error);
-  return !error && space.available < kLeastSpace ? "no space left on device" : "";
+  return !error && space.capacity > 0 && space.available < kLeastSpace ? "no space left on device"
+                                                                       : "";
 }
 
 }  // namespace ghtrack::render

@@ -27,7 +27,7 @@ struct Rectangle {
 enum class Encoder {
   kAutomatic,  // ffmpeg if it is installed, else OpenCV
   kFfmpeg,     // a pipe to the program `ffmpeg`: half the time and better quality
-  kOpenCv,     // OpenCV's own FFmpeg backend: no other process
+  kOpenCv,     // OpenCV's own FFmpeg backend: no other process; no webm, no gif
 };
 
 /// How a video is to be made.
