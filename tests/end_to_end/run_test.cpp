@@ -1,0 +1,162 @@
+// The promises of `ghtrack run`, checked by running the program.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/end_to_end/program.hpp"
+
+namespace ghtrack::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kShipped = {"three_regimes.yaml", "trains.yaml", "throwing.yaml",
+                                           "balloons.yaml"};
+
+std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+class Run : public ::testing::Test {
+ protected:
+  Outcome ghtrack(const std::string& arguments) { return shell("ghtrack " + arguments, folder()); }
+  const fs::path& folder() const { return folder_.path(); }
+
+  void expect_same_files(const fs::path& a, const fs::path& b) {
+    ASSERT_EQ(names_in(a), names_in(b));
+    for (const std::string& name : names_in(a)) {
+      EXPECT_TRUE(contents(a / name) == contents(b / name)) << name << " differs";
+    }
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+// Derived: the table of files and columns that users are promised.
+TEST_F(Run, WritesEveryPromisedFileWithItsColumns) {
+  const Outcome run = ghtrack("run " + quoted(scene_file("three_regimes.yaml")) +
+                              " -o results --duration 3 --no-video");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const fs::path results = folder() / "results";
+  EXPECT_THAT(names_in(results), ElementsAre("detections.csv", "metrics.json", "origins.csv",
+                                             "scene.yaml", "tracks.csv", "truth.csv"));
+  const auto header = [&](const char* file) {
+    std::ifstream stream(results / file);
+    std::string line;
+    std::getline(stream, line);
+    return line;
+  };
+  EXPECT_EQ(header("truth.csv"), "t,truth_id,name,kind,x,y,vx,vy,ax,ay");
+  EXPECT_EQ(header("detections.csv"), "t,sensor,class,x,y");
+  EXPECT_EQ(header("origins.csv"), "t,sensor,x,y,truth_id");
+  EXPECT_EQ(header("tracks.csv"),
+            "t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y");
+  EXPECT_THAT(run.out, HasSubstr("predicted"));
+  EXPECT_TRUE(nlohmann::json::accept(contents(results / "metrics.json")));
+}
+
+// Property: same binary, same scene, same seed, same bytes; the resolved scene is the scene.
+TEST_F(Run, RepeatsItselfByteForByteAlsoFromTheResolvedScene) {
+  for (const std::string& name : kShipped) {
+    SCOPED_TRACE(name);
+    const std::string options = " --duration 4 --no-video -o ";
+    ASSERT_EQ(ghtrack("run " + quoted(scene_file(name)) + options + "first").exit_code, 0);
+    ASSERT_EQ(ghtrack("run " + quoted(scene_file(name)) + options + "second").exit_code, 0);
+    ASSERT_EQ(ghtrack("run first/scene.yaml --no-video -o third").exit_code, 0);
+    expect_same_files(folder() / "first", folder() / "second");
+    expect_same_files(folder() / "first", folder() / "third");
+  }
+}
+
+/// The rows of a CSV file whose cell in a column has some value, without the columns that number
+/// the objects.
+std::vector<std::vector<std::string>> rows_of_object(const fs::path& file,
+                                                     const std::string& name) {
+  std::vector<std::vector<std::string>> rows;
+  for (auto row : csv_rows(file)) {
+    if (row.at(2) != name) continue;
+    row.erase(row.begin() + 1);  // truth_id
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Property: truth and noise of an object depend on the seed and its own name alone.
+TEST_F(Run, AddingATargetChangesNoOtherTargetsTruthOrNoise) {
+  const std::string scene = contents(scene_file("three_regimes.yaml"));
+  const std::string added =
+      "  - name: newcomer\n    ball: {type: tennis, position: [-15, 12], velocity: [1, 2]}\n";
+  std::string longer = scene;
+  longer.insert(scene.find("targets:\n") + std::string("targets:\n").size(), added);
+  write(folder() / "before.yaml", scene);
+  write(folder() / "after.yaml", longer);
+  ASSERT_EQ(ghtrack("run before.yaml -o before --duration 5 --no-video").exit_code, 0);
+  const Outcome after = ghtrack("run after.yaml -o after --duration 5 --no-video");
+  ASSERT_EQ(after.exit_code, 0) << after.err;
+
+  std::map<std::string, std::string> names;
+  for (const auto& row : csv_rows(folder() / "before" / "truth.csv")) names[row.at(1)] = row.at(2);
+  names.erase("truth_id");
+  ASSERT_GT(names.size(), 5U);
+  for (const auto& [id, name] : names) {
+    EXPECT_EQ(rows_of_object(folder() / "before" / "truth.csv", name),
+              rows_of_object(folder() / "after" / "truth.csv", name));
+  }
+  std::vector<std::vector<std::string>> detections =
+      csv_rows(folder() / "after" / "detections.csv");
+  for (const auto& row : csv_rows(folder() / "before" / "detections.csv")) {
+    ASSERT_THAT(detections, Contains(row));
+  }
+}
+
+nlohmann::json metrics_of(const fs::path& folder) {
+  return nlohmann::json::parse(contents(folder / "metrics.json"));
+}
+
+// Property: the point of the exercise. Every train and ball of every shipped scene is estimated
+// better than it is measured.
+TEST_F(Run, EstimatesOfTrainsAndBallsBeatTheRawMeasurements) {
+  for (const std::string& name : kShipped) {
+    ASSERT_EQ(ghtrack("run " + quoted(scene_file(name)) + " -o results --no-video").exit_code, 0);
+    for (const auto& object : metrics_of(folder() / "results").at("objects")) {
+      if (object.at("regime") == "balloon") continue;
+      EXPECT_LT(object.at("rmse_position"), object.at("measurement_rmse")) << name << object;
+    }
+  }
+}
+
+// Derived: for constant velocity the lag is zero and the RMSE is √(VRF) σ; the measured value must
+// agree within its own 95 % interval, widened to 4 standard errors for a fixed seed.
+TEST_F(Run, MeasuredErrorOfSteadyTrainsAgreesWithThePredictedError) {
+  write(folder() / "steady.yaml", R"(
+name: steady
+seed: 11
+duration: 60
+targets:
+  - {name: slow, train: {track: [{straight: 5000}], cars: 1, speed: 5, length: 20}}
+  - {name: fast, train: {position: [0, 300], track: [{straight: 5000}], cars: 1, speed: 60, length: 20}}
+sensors:
+  - {name: radar, rate: 20, noise: 2}
+tracker:
+  filters:
+    train: {gh: {g: 0.2, h: 0.02}}
+)");
+  const Outcome run = ghtrack("run steady.yaml -o results");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const auto& object : metrics_of(folder() / "results").at("objects")) {
+    const double measured = object.at("rmse_position");
+    const double predicted = object.at("predicted_rmse");
+    const double low = object.at("rmse_position_ci95").at(0);
+    const double high = object.at("rmse_position_ci95").at(1);
+    EXPECT_LT(std::abs(measured - predicted), (high - low)) << object;
+  }
+}
+
+}  // namespace
+}  // namespace ghtrack::testing

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ghtrack::cli {
+
+/// What every command is told.
+struct Manners {
+  bool quiet = false;  // no progress, no remarks: errors only
+};
+
+/// What chooses a scene and changes it before it runs.
+struct SceneOptions {
+  std::vector<std::string> files;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> duration;      // [s]
+  std::vector<std::string> overrides;  // KEY=VALUE
+
+  /// All changes as KEY=VALUE.
+  std::vector<std::string> all_overrides() const;
+};
+
+struct RunOptions {
+  SceneOptions scene;
+  std::string output;         // folder; empty: out/<scene name>
+  std::optional<bool> video;  // overrides what the scene says
+};
+
+struct VideoCommandOptions {
+  SceneOptions scene;
+  std::string output;  // file; empty: out/<scene name>/video.mp4
+  std::string size;    // WxH; empty: what the scene says
+  std::optional<double> fps, slow, from, to;
+  std::vector<std::string> show, hide;
+  std::string encoder = "auto";
+  std::string poster;  // PNG file; empty: none
+};
+
+struct FilterCommandOptions {
+  std::string file = "-";  // series, or - for standard input
+  std::string filter = "gh";
+  std::optional<double> g, h, k, theta, q, r, p0, u;
+  std::string x0, dx0, ddx0;  // comma-separated, one per axis; empty: 0
+  std::optional<int> order;
+  double dt = 1.0;       // [s]
+  std::string t_column;  // empty: rows are dt apart
+  bool json = false;
+};
+
+struct GainsCommandOptions {
+  std::string rule;
+  std::optional<double> g, h, k, theta, index, process_noise, noise, gamma;
+  std::optional<int> n, order;
+  double dt = 1.0;     // [s]
+  double sigma = 1.0;  // [m]
+  double accel = 0.0;  // [m/s²]
+  double jerk = 0.0;   // [m/s³]
+  bool json = false;
+};
+
+struct TrackOptions {
+  std::string detections;
+  std::string format = "auto";
+  std::string config;  // YAML file of a tracker; empty: the defaults
+  std::string output;  // empty: standard output
+};
+
+struct ScoreOptions {
+  std::string truth, tracks;
+  std::string format = "auto";
+  std::optional<double> gospa_c, gospa_p, gospa_alpha, match_distance;
+  std::string per_step;
+  bool json = false;
+};
+
+// Each command returns the exit code, or throws what main() turns into one.
+int run(const RunOptions& options, const Manners& manners);
+int video(const VideoCommandOptions& options, const Manners& manners);
+int check(const SceneOptions& options, const Manners& manners);
+int schema();
+int reference();
+int filter(const FilterCommandOptions& options, const Manners& manners);
+int gains(const GainsCommandOptions& options, const Manners& manners);
+int track(const TrackOptions& options, const Manners& manners);
+int score(const ScoreOptions& options, const Manners& manners);
+
+}  // namespace ghtrack::cli

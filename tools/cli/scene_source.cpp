@@ -1,0 +1,64 @@
+#include "tools/cli/scene_source.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <system_error>
+
+#include "scenes/schema/reader.hpp"
+#include "tools/record/csv_writer.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack::cli {
+namespace {
+
+constexpr std::size_t kLongestFolderName = 100;
+
+/// Letters, digits and single underscores: a name that is harmless in every file system.
+std::string plain_name(const std::string& name) {
+  std::string plain;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && std::isalnum(byte) != 0) {
+      plain += static_cast<char>(std::tolower(byte));
+    } else if (!plain.empty() && plain.back() != '_') {
+      plain += '_';
+    }
+    if (plain.size() == kLongestFolderName) break;
+  }
+  while (!plain.empty() && plain.back() == '_') plain.pop_back();
+  return plain;
+}
+
+}  // namespace
+
+std::vector<std::string> SceneOptions::all_overrides() const {
+  std::vector<std::string> all = overrides;
+  if (seed) all.push_back(fmt::format("seed={}", *seed));
+  if (duration) {
+    std::string text = "duration=";
+    append_number(text, *duration);
+    all.push_back(text);
+  }
+  return all;
+}
+
+Scene load_scene(const std::string& file, const SceneOptions& options) {
+  return read_scene(file, options.all_overrides());
+}
+
+std::filesystem::path default_folder(const std::string& scene_name, const std::string& file) {
+  std::string name = plain_name(scene_name);
+  if (name.empty()) name = plain_name(std::filesystem::path(file).stem().string());
+  return std::filesystem::path("out") / (name.empty() ? "scene" : name);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && std::filesystem::is_directory(folder, error)) return;
+  const std::string reason = error ? error.message() : "a file of that name is in the way";
+  throw WriteError(fmt::format("{}: the folder cannot be made: {}", folder.string(), reason));
+}
+
+}  // namespace ghtrack::cli

@@ -1,0 +1,99 @@
+// `ghtrack video`: the annotated video alone.
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "scenes/schema/diagnostic.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/interruption.hpp"
+#include "tools/cli/scene_source.hpp"
+#include "tools/cli/usage_error.hpp"
+#include "tools/cli/video_frames.hpp"
+#include "tools/pipeline/simulation.hpp"
+
+namespace ghtrack::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::pair<int, int> parse_size(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  const char* const end = text.data() + text.size();
+  const auto [x, width_error] = std::from_chars(text.data(), end, width);
+  if (width_error == std::errc{} && x != end && *x == 'x') {
+    const auto [last, height_error] = std::from_chars(x + 1, end, height);
+    if (height_error == std::errc{} && last == end) return {width, height};
+  }
+  throw UsageError(fmt::format("video: --size is '{}'; wanted is WIDTHxHEIGHT, such as 1920x1080",
+                               printable(text)));
+}
+
+render::Layer parse_layer(const std::string& name) {
+  if (const auto layer = render::layer_named(name)) return *layer;
+  std::vector<std::string_view> names;
+  for (const auto& [known, layer] : enum_names(render::Layer{})) names.push_back(known);
+  throw UsageError(
+      fmt::format("video: unknown layer '{}'{}", printable(name), hint(name, "layers", names)));
+}
+
+render::Encoder parse_encoder(const std::string& name) {
+  if (name == "auto") return render::Encoder::kAutomatic;
+  if (name == "ffmpeg") return render::Encoder::kFfmpeg;
+  if (name == "opencv") return render::Encoder::kOpenCv;
+  throw UsageError(fmt::format("video: --encoder is '{}'; allowed are auto, ffmpeg and opencv",
+                               printable(name)));
+}
+
+render::VideoOptions changed_by(const VideoCommandOptions& options, render::VideoOptions video) {
+  if (!options.size.empty()) std::tie(video.width, video.height) = parse_size(options.size);
+  video.fps = options.fps.value_or(video.fps);
+  video.slow = options.slow.value_or(video.slow);
+  video.from = options.from.value_or(video.from);
+  if (options.to) video.to = options.to;
+  for (const std::string& layer : options.show) video.layers.show(parse_layer(layer));
+  for (const std::string& layer : options.hide) video.layers.hide(parse_layer(layer));
+  video.encoder = parse_encoder(options.encoder);
+  return video;
+}
+
+}  // namespace
+
+int video(const VideoCommandOptions& options, const Manners& manners) {
+  const std::string& file = options.scene.files.front();
+  const Scene any_scene = load_scene(file, options.scene);
+  const auto* scene = std::get_if<WorldScene>(&any_scene);
+  if (scene == nullptr) {
+    throw UsageError(fmt::format("video: {} is a series, which has no video", printable(file)));
+  }
+  fs::path path = options.output;
+  if (path.empty()) {
+    const fs::path folder = default_folder(scene->name, file);
+    make_folder(folder);
+    path = folder / "video.mp4";
+  }
+  World world = make_world(*scene);
+  VideoFrames frames(*scene, world, changed_by(options, video_options(*scene, world, path)),
+                     manners.quiet);
+  Listener listener;
+  listener.on_scan = [&](const StepRecord& record) { frames.add_scan(record); };
+  listener.frame_times = frames.times();
+  listener.on_frame = [&](const TruthSnapshot& truth) {
+    stop_if_interrupted();
+    frames.add_frame(truth);
+  };
+  ghtrack::run(*scene, world, listener);
+  if (!options.poster.empty()) frames.writer().write_poster(options.poster);
+  frames.writer().finish();
+  if (!manners.quiet) fmt::print(stderr, "{}: {}\n", scene->name, path.string());
+  return 0;
+}
+
+}  // namespace ghtrack::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sensors/detection.hpp"
+#include "tracker/track.hpp"
+#include "tracker/tracker.hpp"
+#include "tracker/tracker_config.hpp"
+
+namespace ghtrack {
+
+/// How somebody else's detections are to be tracked: the file that `ghtrack track --config` reads.
+struct OfflineConfig {
+  static constexpr std::string_view about = "how the detections of a file are tracked";
+
+  double noise = 1.0;   // 1-sigma error of a detection per axis [m, or pixel]
+  double period = 0.0;  // time between scans [s]; 0: the median of the file
+  std::vector<Eigen::Vector2d> field_of_view;
+  TrackerConfig tracker;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("noise", &OfflineConfig::noise,
+            {.unit = "m",
+             .meaning = "1-sigma error of a detection per axis",
+             .above = 0.0,
+             .maximum = 1e6});
+    v.field("period", &OfflineConfig::period,
+            {.unit = "s",
+             .meaning = "time between scans; 0: the median of the file",
+             .minimum = 0.0,
+             .maximum = 1e6});
+    v.field("field_of_view", &OfflineConfig::field_of_view,
+            {.unit = "m",
+             .meaning = "lower left and upper right corner; without it everything is seen",
+             .minimum = -1e7,
+             .maximum = 1e7,
+             .max_items = 2});
+    v.field("tracker", &OfflineConfig::tracker, {.meaning = "the tracker, as in a scene"});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    const auto& view = field_of_view;
+    if (view.size() == 1) {
+      report("field_of_view", "two corners are needed: [[left, bottom], [right, top]]");
+    }
+    if (view.size() == 2 && !(view[0].array() < view[1].array()).all()) {
+      report("field_of_view", "the first corner must lie left of and below the second");
+    }
+  }
+};
+
+/// Tracks recorded scans. Instants without a detection are no rows of a file: where scans are
+/// missing, empty ones take their place until no track is left that could miss anything, so that
+/// the length of a gap costs nothing.
+/// @param scans     by time
+/// @param on_scan   gets the tracks after each scan, the empty ones included
+/// @return the tracker's state at the end, with the counts of what was refused
+TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> scans,
+                           const std::function<void(const TrackSnapshot&)>& on_scan);
+
+}  // namespace ghtrack

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/schema/series.hpp"
+
+namespace ghtrack {
+
+/// One measurement of a series, and what a filter made of it.
+struct SeriesRow {
+  int k = 0;       // number of the measurement, from 1
+  double t = 0.0;  // [s]
+  double z = 0.0;
+  std::optional<double> truth;
+  double x_pred = 0.0, dx_pred = 0.0, ddx_pred = 0.0;  // prior
+  std::optional<double> residual;                      // absent where the measurement is not used
+  double x = 0.0, dx = 0.0, ddx = 0.0;                 // posterior
+};
+
+/// One filter's way through the series.
+struct SeriesTrack {
+  std::string filter;  // name in the scene
+  std::string gains;   // "g=0.2 h=0.02"
+  int order = 1;
+  std::vector<SeriesRow> rows;
+  std::optional<double> rmse;  // √ mean (x − truth)², over all rows
+  std::optional<double>
+      rmse_without_guess;  // the same without a first row that is the guess itself
+  double mai = 0.0;        // mean |z − x_pred| over the measurements used
+};
+
+struct SeriesResult {
+  std::vector<SeriesTrack> tracks;         // in the order of the scene's filters
+  std::optional<double> measurement_rmse;  // √ mean (z − truth)²
+};
+
+/// Generates or takes the measurements of a scene and runs each of its filters over them.
+SeriesResult run(const SeriesScene& scene);
+
+}  // namespace ghtrack
