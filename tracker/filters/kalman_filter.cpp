@@ -134,9 +134,10 @@ bool KalmanFilter<Order, D>::update(const Vector& z, const Matrix& covariance) {
   next.velocity += change.template segment<D>(D);
   if constexpr (Order == 2) next.acceleration += change.template tail<D>();
 
-  Covariance keep = Covariance::Identity();
-  keep.template leftCols<D>() -= gain;
-  Covariance p = keep * covariance_ * keep.transpose() + gain * r * gain.transpose();
+  Covariance p = covariance_;  // (I − K H) P, then times (I − K H)ᵀ, then + K R Kᵀ
+  p -= gain * covariance_.template topRows<D>();
+  p -= p.template leftCols<D>().eval() * gain.transpose();
+  p += gain * r * gain.transpose();
   p = 0.5 * (p + p.transpose()).eval();
   if (!std::isfinite(nis) || !next.is_finite() || !p.allFinite()) return refuse_measurement();
 
@@ -145,10 +146,15 @@ bool KalmanFilter<Order, D>::update(const Vector& z, const Matrix& covariance) {
   covariance_ = p;
   residual_ = residual;
   nis_ = nis;
-  log_likelihood_ = -0.5 * (nis + std::log(determinant) + D * std::log(2.0 * std::numbers::pi));
+  determinant_ = determinant;
   misses_ = 0;
   ++updates_;
   return true;
+}
+
+template <int Order, int D>
+double KalmanFilter<Order, D>::log_likelihood() const {
+  return -0.5 * (nis_ + std::log(determinant_) + D * std::log(2.0 * std::numbers::pi));
 }
 
 template <int Order, int D>

@@ -79,7 +79,7 @@ class KalmanFilter {
   /// Normalised innovation squared rᵀ S⁻¹ r of the last update.
   double nis() const { return nis_; }
   /// ln N(r; 0, S) of the last update.
-  double log_likelihood() const { return log_likelihood_; }
+  double log_likelihood() const;
 
   Vector position_sigma() const;
   Vector velocity_sigma() const;
@@ -98,7 +98,7 @@ class KalmanFilter {
   Covariance covariance_ = Covariance::Zero();
   std::optional<Vector> residual_;
   double nis_ = 0.0;
-  double log_likelihood_ = 0.0;
+  double determinant_ = 1.0;  // of S at the last update
   int updates_ = 0;
   int misses_ = 0;
   bool started_ = false;

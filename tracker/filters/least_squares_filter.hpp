@@ -27,6 +27,8 @@ class LeastSquaresFilter {
   bool predict() { return predict(dt_); }
   /// Takes one more measurement into the fit. @returns false if refused
   bool update(const Vector& z);
+  /// Says that there is no measurement for this prediction.
+  void coast() { residual_.reset(); }
   /// Forgets everything.
   void reset();
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
+#include "tests/tracker/filters/effort.hpp"
 #include "tracker/filters/filter.hpp"
 
 namespace ghtrack {
@@ -84,7 +86,7 @@ class Poison {
 // Property: ten million hostile steps, counted exactly, leave all numbers finite.
 TEST(Robustness, SurvivesTenMillionHostileUpdates) {
   const auto all = configurations();
-  const int rounds = 10'000'000 / static_cast<int>(all.size()) + 1;
+  const int rounds = testing::samples(10'000'000) / static_cast<int>(all.size()) + 1;
   for (const FilterConfig& config : all) {
     Filter filter = make_filter(config, 0.3, 0.1);
     Poison poison(17);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/tracker/filters/effort.hpp"
 #include "tests/tracker/filters/random_gains.hpp"
 #include "tracker/filters/batch.hpp"
 #include "tracker/filters/gain_filter.hpp"
@@ -237,11 +238,11 @@ void compare_with_eigenvalues(int samples, std::mt19937_64& engine) {
 // Derived: eigenvalues of the error's transition matrix, a million sets of gains.
 TEST(Stability, AgreesWithTheEigenvaluesOfPairs) {
   std::mt19937_64 engine(5);
-  compare_with_eigenvalues<2>(500000, engine);
+  compare_with_eigenvalues<2>(testing::samples(500000), engine);
 }
 TEST(Stability, AgreesWithTheEigenvaluesOfTriples) {
   std::mt19937_64 engine(6);
-  compare_with_eigenvalues<3>(500000, engine);
+  compare_with_eigenvalues<3>(testing::samples(500000), engine);
 }
 
 // Derived: one point outside each face of the stable region.

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace ghtrack::testing {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool kSanitized = __has_feature(address_sanitizer);
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+/// The number of samples, a tenth of it in the slow builds that look for undefined behaviour.
+constexpr int samples(int usual) { return kSanitized ? usual / 10 : usual; }
+
+}  // namespace ghtrack::testing
