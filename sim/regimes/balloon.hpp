@@ -78,6 +78,15 @@ struct Balloon {
              .minimum = 0.0,
              .maximum = 10.0});
   }
+
+  template <class Report>
+  void check(Report&& report) const {
+    const double volume = 4.19 * radius * radius * radius;
+    if (envelope_mass + gas_density * volume < 0.02 * volume) {
+      report("envelope_mass",
+             "too light for its size: 0.02 kg per cubic metre, gas included, is the least");
+    }
+  }
 };
 
 /// The equations of motion of one balloon.

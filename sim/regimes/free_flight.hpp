@@ -134,16 +134,16 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
   }
 }
 
-/// The same for drag that may be stiff: `decay_rate(state, time)` is the rate [1/s] at which a
-/// difference of speed dies out, and no step is longer than half its inverse. As drag is quadratic
-/// the rate falls with the difference, so even a balloon in a hurricane needs few steps.
-template <class Rates, class DecayRate>
+/// The same for forces that may be stiff: `stiffness(state, time)` is the rate [1/s] at which they
+/// change with the motion, and no step is longer than half its inverse. As drag is quadratic the
+/// rate falls with the speed through the air, so even a balloon in a hurricane needs few steps.
+template <class Rates, class Stiffness>
 void fly_stiffly(FlightState& state, double from, double to, const RoundBody& body,
                  const std::vector<Surface>& surfaces, const Rates& rates,
-                 const DecayRate& decay_rate) {
+                 const Stiffness& stiffness) {
   for (double time = from; time < to;) {
-    const double stiffness = decay_rate(state, time) * (to - time);
-    const double end = stiffness <= 0.5 ? to : time + (to - time) * 0.5 / stiffness;
+    const double change = stiffness(state, time) * (to - time);
+    const double end = change <= 0.5 ? to : time + (to - time) * 0.5 / change;
     fly(state, time, end, body, surfaces, rates);
     time = end;
   }

@@ -8,6 +8,7 @@
 namespace ghtrack {
 namespace {
 
+constexpr double kLargestLift = 0.5;    // that any of the models can give
 constexpr double kDecaySpeed = 44.704;  // 100 miles per hour [m/s]
 
 ThrownBall make_preset(std::string_view type, double mass, double radius, double drag,
@@ -77,16 +78,12 @@ BallModel::BallModel(const ThrownBall& ball)
 
 BallModel::State BallModel::start(const Environment&, double) const { return initial_; }
 
-double BallModel::drag_per_speed(const Environment& environment, double speed) const {
-  const double density = environment.air().density;
-  double drag = ball_.drag;
-  if (ball_.drag_crisis) {
-    const DragCrisis& crisis = *ball_.drag_crisis;
-    const double reynolds = density * 2.0 * ball_.radius * speed / environment.air().viscosity;
-    const double beyond = (reynolds - crisis.from) / (crisis.to - crisis.from);
-    drag += (crisis.drag - drag) * std::clamp(beyond, 0.0, 1.0);
-  }
-  return density * area_to_mass_ * drag;
+double BallModel::drag_coefficient(const Air& air, double speed) const {
+  if (!ball_.drag_crisis) return ball_.drag;
+  const DragCrisis& crisis = *ball_.drag_crisis;
+  const double reynolds = air.density * 2.0 * ball_.radius * speed / air.viscosity;
+  const double beyond = (reynolds - crisis.from) / (crisis.to - crisis.from);
+  return ball_.drag + (crisis.drag - ball_.drag) * std::clamp(beyond, 0.0, 1.0);
 }
 
 FlightRate BallModel::rate(const FlightState& state, const Environment& environment,
@@ -94,30 +91,39 @@ FlightRate BallModel::rate(const FlightState& state, const Environment& environm
   FlightRate rate{environment.gravity(), 0.0};
   const Vec2 air = state.velocity - environment.wind().at(state.position, time);
   const double speed = air.norm();
-  rate.acceleration -= drag_per_speed(environment, speed) * speed * air;
+  const double k = environment.air().density * area_to_mass_;
+  rate.acceleration -= k * drag_coefficient(environment.air(), speed) * speed * air;
   if (state.spin != 0.0 && speed > 0.0) {
     const double s = ball_.radius * std::abs(state.spin) / speed;
     const double lift = std::copysign(lift_coefficient(ball_.lift, s), state.spin);
-    rate.acceleration +=
-        environment.air().density * area_to_mass_ * lift * speed * Vec2(-air.y(), air.x());
+    rate.acceleration += k * lift * speed * Vec2(-air.y(), air.x());
     if (ball_.spin_decay > 0.0) rate.spin = -state.spin * speed / (ball_.spin_decay * kDecaySpeed);
   }
   return rate;
 }
 
+double BallModel::stiffness(const FlightState& state, const Environment& environment,
+                            double time) const {
+  const Vec2 air = state.velocity - environment.wind().at(state.position, time);
+  const double speed = air.norm();
+  const double k = environment.air().density * area_to_mass_;
+  double coefficients = 2.0 * drag_coefficient(environment.air(), speed);
+  if (state.spin != 0.0 && ball_.lift != LiftModel::kNone) coefficients += kLargestLift;
+  double rate = k * coefficients * speed;
+  if (ball_.spin_decay > 0.0) rate += speed / (ball_.spin_decay * kDecaySpeed);
+  return rate;
+}
+
 void BallModel::advance(State& state, const Environment& environment, double from,
                         double to) const {
-  const Wind& wind = environment.wind();
-  wind.over_smooth_parts(from, to, [&](double begin, double end) {
+  environment.wind().over_smooth_parts(from, to, [&](double begin, double end) {
     fly_stiffly(
         state, begin, end, round_, environment.surfaces(),
         [&](const FlightState& s, double time) {
           return rate(s, environment, Wind::inside(time, begin, end));
         },
         [&](const FlightState& s, double time) {
-          const Vec2 air = s.velocity - wind.at(s.position, Wind::inside(time, begin, end));
-          const double speed = air.norm();
-          return 2.0 * drag_per_speed(environment, speed) * speed;
+          return stiffness(s, environment, Wind::inside(time, begin, end));
         });
   });
 }

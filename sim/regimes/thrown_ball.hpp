@@ -159,6 +159,9 @@ struct ThrownBall {
     }
     if (angle_deg && !speed) report("angle_deg", "an angle needs a speed");
     if (spin_decay > 0.0 && spin_decay < 0.1) report("spin_decay", "must be 0 or at least 0.1 s");
+    if (mass < 4.0 * radius * radius * radius) {
+      report("mass", "the ball must not be lighter than air: at least 1 kg per cubic metre");
+    }
     if (spin && spin_rpm) report("spin_rpm", "give either spin or spin_rpm, not both");
   }
 };
@@ -182,7 +185,9 @@ class BallModel {
 
  private:
   FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
-  double drag_per_speed(const Environment& environment, double speed) const;  // k of −k |u| u [1/m]
+  double drag_coefficient(const Air& air, double speed) const;
+  /// Rate at which forces and spin change with the motion through the air [1/s].
+  double stiffness(const FlightState& state, const Environment& environment, double time) const;
 
   ThrownBall ball_;
   RoundBody round_;
