@@ -27,6 +27,7 @@ void add_mot(nlohmann::ordered_json& json, const MotResult& result) {
   json["deta"] = result.hota.deta;
   json["assa"] = result.hota.assa;
   json["loca"] = result.hota.loca;
+  json["ospa2"] = result.ospa2 ? nlohmann::ordered_json(*result.ospa2) : nullptr;
 }
 
 }  // namespace ghtrack

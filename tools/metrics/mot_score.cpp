@@ -1,5 +1,7 @@
 #include "tools/metrics/mot_score.hpp"
 
+#include <algorithm>
+
 namespace ghtrack {
 
 const std::vector<int>& MotScore::Numbers::of(std::span<const Id> ids) {
@@ -15,25 +17,33 @@ void MotScore::add_points(std::span<const Id> truth_ids, std::span<const Eigen::
                           std::span<const Id> track_ids, std::span<const Eigen::Vector2d> tracks,
                           double match_distance) {
   const double zero_distance = 2.0 * match_distance;
-  std::vector<Pair> pairs = close_pairs(truth, tracks, zero_distance);
+  std::vector<Pair> pairs =
+      close_pairs(truth, tracks, std::max(zero_distance, ospa2_.options().cutoff));
+  const std::vector<int>& truth_numbers = truth_.of(truth_ids);
+  const std::vector<int>& track_numbers = tracks_.of(track_ids);
+  ospa2_.add({truth_numbers, track_numbers, pairs});
+  points_ = true;
   for (Pair& pair : pairs) pair.value = 1.0 - pair.value / zero_distance;
   std::erase_if(pairs, [](const Pair& pair) { return !(pair.value > 0.0); });
-  add(truth_ids, track_ids, pairs);
+  add({truth_numbers, track_numbers, pairs});
 }
 
 void MotScore::add_boxes(std::span<const Id> truth_ids, std::span<const Box> truth,
                          std::span<const Id> track_ids, std::span<const Box> tracks) {
-  add(truth_ids, track_ids, overlapping_pairs(truth, tracks));
+  const std::vector<Pair> pairs = overlapping_pairs(truth, tracks);
+  add({truth_.of(truth_ids), tracks_.of(track_ids), pairs});
 }
 
-void MotScore::add(std::span<const Id> truth_ids, std::span<const Id> track_ids,
-                   std::span<const Pair> pairs) {
-  const MotStep step{truth_.of(truth_ids), tracks_.of(track_ids), pairs};
+void MotScore::add(const MotStep& step) {
   clear_.add(step);
   identity_.add(step);
   hota_.add(step);
 }
 
-MotResult MotScore::result() const { return {clear_.result(), identity_.result(), hota_.result()}; }
+MotResult MotScore::result() const {
+  MotResult result{clear_.result(), identity_.result(), hota_.result(), std::nullopt};
+  if (points_) result.ospa2 = ospa2_.result();
+  return result;
+}
 
 }  // namespace ghtrack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "tools/metrics/close_pairs.hpp"
 #include "tools/metrics/hota.hpp"
 #include "tools/metrics/identity.hpp"
+#include "tools/metrics/ospa2.hpp"
 
 namespace ghtrack {
 
@@ -16,12 +18,15 @@ struct MotResult {
   ClearMotResult clear;
   IdentityResult identity;
   HotaResult hota;
+  std::optional<double> ospa2;  // of points [m]; absent for boxes
 };
 
-/// All scores of identity over a run: CLEAR MOT, IDF1 and HOTA.
+/// All scores of identity over a run: CLEAR MOT, IDF1, HOTA and OSPA(2).
 class MotScore {
  public:
   using Id = std::int64_t;
+
+  explicit MotScore(const Ospa2Options& ospa2 = {}) : ospa2_(ospa2) {}
 
   /// Adds an instant of points. Their similarity is max(0, 1 − d / (2 D)), which is 0.5 at the
   /// match distance D, as in TrackEval.
@@ -46,13 +51,14 @@ class MotScore {
     std::vector<int> numbers_;  // working space
   };
 
-  void add(std::span<const Id> truth_ids, std::span<const Id> track_ids,
-           std::span<const Pair> pairs);
+  void add(const MotStep& step);
 
   Numbers truth_, tracks_;
   ClearMot clear_;
   Identity identity_;
   Hota hota_;
+  Ospa2 ospa2_;
+  bool points_ = false;  // were scored
 };
 
 }  // namespace ghtrack

@@ -34,7 +34,10 @@ std::optional<ObjectId> used_object(const TrackEstimate& track, const Observatio
 }  // namespace
 
 RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options)
-    : objects_(std::move(objects)), options_(options), tallies_(objects_.size()) {}
+    : objects_(std::move(objects)),
+      options_(options),
+      tallies_(objects_.size()),
+      mot_({options.gospa().cutoff, options.gospa().order}) {}
 
 void RunMetrics::add(const StepRecord& record, std::span<const FilterFacts> facts) {
   score_sets(record);

@@ -81,7 +81,7 @@ ScoreResult score_rows(std::span<const Row> truth_rows, std::span<const Row> tra
   ScoreResult result;
   result.options = options;
   result.boxes = boxes;
-  MotScore mot;
+  MotScore mot({options.gospa.cutoff, options.gospa.order});
   Members truth, tracks;
   double squared_error = 0.0;
   std::int64_t pairs = 0;

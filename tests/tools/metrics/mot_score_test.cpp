@@ -277,6 +277,30 @@ TEST(MotScore, AcceptsABoxAtTheThreshold) {
   EXPECT_EQ(score.result().clear.matches, 1);
 }
 
+// Derived: two instants, c = 10. Track 7 is 3 m off for both instants: 3. Track 8 is exact for one
+// instant and absent for the other: (0 + 10) / 2. The target without a track costs 10.
+TEST(Ospa2, ComparesWholeTrajectories) {
+  MotScore score({.cutoff = 10.0, .order = 1.0});
+  const Points truth = {{0.0, 0.0}, {100.0, 0.0}, {200.0, 0.0}};
+  score.add_points(Ids{1, 2, 3}, truth, Ids{7, 8}, Points{{3.0, 0.0}, {100.0, 0.0}}, 5.0);
+  score.add_points(Ids{1, 2, 3}, truth, Ids{7}, Points{{0.0, 3.0}}, 5.0);
+  EXPECT_NEAR(*score.result().ospa2, (3.0 + 5.0 + 10.0) / 3.0, 1e-12);
+}
+
+// Derived: an exact track that changes its identity half way leaves half a trajectory unexplained,
+// and one track too many: (c / 2 + c) / 2.
+TEST(Ospa2, ChargesAChangeOfIdentity) {
+  MotScore steady({.cutoff = 10.0, .order = 1.0});
+  MotScore changing({.cutoff = 10.0, .order = 1.0});
+  for (int i = 0; i < 20; ++i) {
+    const Points place = {{0.5 * i, 0.0}};
+    steady.add_points(Ids{1}, place, Ids{5}, place, 5.0);
+    changing.add_points(Ids{1}, place, Ids{i < 10 ? 5 : 6}, place, 5.0);
+  }
+  EXPECT_NEAR(*steady.result().ospa2, 0.0, 1e-12);
+  EXPECT_NEAR(*changing.result().ospa2, 7.5, 1e-12);
+}
+
 // Property: the sweep finds the same neighbours as a look at every pair.
 TEST(ClosePairs, FindsEveryNeighbourOnce) {
   std::mt19937 random(9);
