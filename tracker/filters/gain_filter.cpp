@@ -212,9 +212,9 @@ std::string to_text(const Gains& gains) {
   for (int i = 0; i <= gains.order; ++i) {
     const auto& [label, value] = parts[static_cast<std::size_t>(i)];
     std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                   std::chars_format::general, 4)
-                         .ptr;
+    auto* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                    std::chars_format::general, 4)
+                          .ptr;
     text.append(label).append(digits.data(), end);
   }
   return text;

@@ -22,7 +22,7 @@ constexpr std::array<std::pair<std::string_view, StartUp>, 3> enum_names(StartUp
 }
 
 /// What a filter does when the time between updates is not the nominal one. Measured RMSE for
-/// jittered times and for 30 % misses, relative to the Kalman filter: fixed gains 1.07 and 1.06,
+/// jittered times and for 30 % misses, relative to the Kalman filter: fixed gains 1.06 and 1.06,
 /// gains from the interval 1.02, gains from the elapsed time 1.01.
 enum class IrregularTime {
   kFixedGains,         // the same g, h, k; velocity changes by h r / (time since the last scan)

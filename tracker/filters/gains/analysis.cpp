@@ -53,32 +53,32 @@ double real_root(const Cubic& cubic) {
 
 }  // namespace
 
-std::optional<std::string_view> violated_inequality(const Gains& q) {
-  if (!(q.g > 0.0)) return "0 < g";
-  if (q.order == 1 && !(q.h > 0.0)) return "0 < h";
-  if (q.order != 1 && !(q.g < 2.0)) return "g < 2";
-  if (q.order >= 1 && !(2.0 * q.g + q.h < 4.0)) return "2g + h < 4";
-  if (q.order == 2 && !(q.k > 0.0)) return "0 < k";
-  if (q.order == 2 && !(q.k * (2.0 - q.g) < q.g * q.h)) return "k < g h / (2 - g)";
+std::optional<std::string_view> violated_inequality(const Gains& gains) {
+  const auto [order, g, h, k] = gains;
+  if (!(g > 0.0)) return "0 < g";
+  if (order == 1 && !(h > 0.0)) return "0 < h";
+  if (order != 1 && !(g < 2.0)) return "g < 2";
+  if (order >= 1 && !(2.0 * g + h < 4.0)) return "2g + h < 4";
+  if (order == 2 && !(k > 0.0)) return "0 < k";
+  if (order == 2 && !(k * (2.0 - g) < g * h)) return "k < g h / (2 - g)";
   return std::nullopt;
 }
 
-std::vector<std::complex<double>> poles(const Gains& q) {
-  std::vector<std::complex<double>> distances;  // w = 1 − z
-  if (q.order == 0) {
-    distances = {q.g};
-  } else if (q.order == 1) {
-    const auto pair = quadratic_roots(-(q.g + q.h), q.h);
-    distances.assign(pair.begin(), pair.end());
+std::vector<std::complex<double>> poles(const Gains& gains) {
+  std::vector<std::complex<double>> roots;  // of w = 1 − z
+  if (gains.order == 0) {
+    roots = {gains.g};
+  } else if (gains.order == 1) {
+    const auto pair = quadratic_roots(-(gains.g + gains.h), gains.h);
+    roots.assign(pair.begin(), pair.end());
   } else {
-    const Cubic cubic = characteristic_cubic(q);
+    const Cubic cubic = characteristic_cubic(gains);
     const double real = real_root(cubic);
     const double b = real - cubic.p;
     const auto pair = quadratic_roots(b, cubic.q + real * b);
-    distances = {real, pair[0], pair[1]};
+    roots = {real, pair[0], pair[1]};
   }
-  std::vector<std::complex<double>> roots;
-  for (const auto& w : distances) roots.push_back(1.0 - w);
+  for (auto& root : roots) root = 1.0 - root;
   std::stable_sort(roots.begin(), roots.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   return roots;
