@@ -30,10 +30,10 @@ struct Node {
   Kind kind = Kind::kNull;
   bool quoted = false;  // a scalar that can be nothing but text
   int origin = 0;       // 0: the file; 1, 2, …: that override
-  Position position = {};
-  std::string text = {};             // of a scalar
-  std::vector<Node> items = {};      // of a list
-  std::vector<Member> members = {};  // of a mapping, in the order of the file; keys are unique
+  Position position;
+  std::string text;             // of a scalar
+  std::vector<Node> items;      // of a list
+  std::vector<Member> members;  // of a mapping, in the order of the file; keys are unique
 
   const Member* find(std::string_view key) const;
 };

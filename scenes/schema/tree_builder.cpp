@@ -6,6 +6,16 @@
 #include <numeric>
 
 namespace ghtrack::schema {
+namespace {
+
+Node make_node(Node::Kind kind, Position position) {
+  Node node;
+  node.kind = kind;
+  node.position = position;
+  return node;
+}
+
+}  // namespace
 
 std::optional<std::size_t> TreeBuilder::open_bracket() const {
   const auto innermost =
@@ -16,13 +26,13 @@ std::optional<std::size_t> TreeBuilder::open_bracket() const {
 void TreeBuilder::OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) {
   const std::size_t offset = begin(mark);
   refuse_if(anchor != 0, offset, "anchors are not allowed");
-  attach(Node{.kind = Node::Kind::kNull, .position = source_.position(offset)}, offset);
+  attach(make_node(Node::Kind::kNull, source_.position(offset)), offset);
 }
 
 void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t) {
   const std::size_t offset = begin(mark);
   refuse_if(true, offset, "aliases are not allowed; write the value out");
-  attach(Node{.kind = Node::Kind::kRefused, .position = source_.position(offset)}, offset);
+  attach(make_node(Node::Kind::kRefused, source_.position(offset)), offset);
 }
 
 void TreeBuilder::OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -42,11 +52,11 @@ void TreeBuilder::OnScalar(const YAML::Mark& mark, const std::string& tag, YAML:
   const bool has_tag = tag != "?" && (tag != "!" || (!in_quotes && !is_block));
   const bool refused = refuse_if(anchor != 0, offset, "anchors are not allowed") ||
                        refuse_if(has_tag, offset, "tags are not allowed");
-  attach(Node{.kind = refused ? Node::Kind::kRefused : Node::Kind::kScalar,
-              .quoted = in_quotes || is_block,
-              .position = source_.position(offset),
-              .text = value},
-         offset);
+  Node node =
+      make_node(refused ? Node::Kind::kRefused : Node::Kind::kScalar, source_.position(offset));
+  node.quoted = in_quotes || is_block;
+  node.text = value;
+  attach(std::move(node), offset);
 }
 
 void TreeBuilder::OnSequenceStart(const YAML::Mark& mark, const std::string& tag,
@@ -91,7 +101,7 @@ void TreeBuilder::open(Node::Kind kind, const YAML::Mark& mark, const std::strin
   }
   const bool refused = refuse_if(anchor != 0, offset, "anchors are not allowed") ||
                        refuse_if(tag != "?" && !tag.empty(), offset, "tags are not allowed");
-  open_.push_back({.node = Node{.kind = kind, .position = source_.position(offset)},
+  open_.push_back({.node = make_node(kind, source_.position(offset)),
                    .offset = offset,
                    .in_brackets = style == YAML::EmitterStyle::Flow,
                    .refused = refused});
@@ -101,7 +111,7 @@ void TreeBuilder::close() {
   Open finished = std::move(open_.back());
   open_.pop_back();
   if (finished.refused) {
-    finished.node = Node{.kind = Node::Kind::kRefused, .position = finished.node.position};
+    finished.node = make_node(Node::Kind::kRefused, finished.node.position);
   }
   attach(std::move(finished.node), finished.offset);
 }
