@@ -73,7 +73,7 @@ class PlotPainter {
         }
     x_ = x_.widened(0.02);
     y_ = y_.widened(0.06);
-    const double top = style_.length(64) + 1.7 * letters_ * static_cast<double>(rows_.size());
+    const double top = style_.length(82) + 1.7 * letters_ * static_cast<double>(rows_.size());
     box_ = {style_.length(92), top, plot.width - style_.length(122),
             plot.height - top - style_.length(72)};
   }
@@ -192,7 +192,7 @@ class PlotPainter {
   }
 
   void legend() {
-    double y = style_.length(62);
+    double y = style_.length(70);
     for (const std::vector<Entry>& row : rows_) {
       for (const Entry& entry : row) {
         const double middle = y - 0.36 * letters_;

@@ -46,7 +46,6 @@ struct VideoOptions {
   Encoder encoder = Encoder::kAutomatic;
   std::optional<ObjectId> follow;    // keeps this object in the middle of the picture
   double follow_width = 40.0;        // [m] of the world across the picture when following
-  std::optional<ObjectId> close_up;  // shows this object enlarged in a corner
 };
 
 /// A scene sensor, as far as it is drawn.
