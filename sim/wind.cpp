@@ -21,10 +21,6 @@ double speed_at(const PowerShear& shear, double height) {
   return shear.speed * portable::pow(height / shear.height, shear.exponent);
 }
 
-Vec2 gust_at(const StepGust& gust, double time) {
-  return time < gust.at ? Vec2(Vec2::Zero()) : gust.change;
-}
-
 Vec2 gust_at(const OneMinusCosineGust& gust, double time) {
   if (time <= gust.at) return Vec2::Zero();
   if (time >= gust.at + gust.over) return gust.change;
@@ -73,6 +69,15 @@ Wind::Wind(const WindConfig& config, double ground, std::uint64_t seed)
 }
 
 Vec2 Wind::at(const Vec2& position, double time) const {
+  Vec2 wind = without_jumps(position, time);
+  for (const Gust& gust : config_.gusts) {
+    const auto* jump = std::get_if<StepGust>(&gust);
+    if (jump != nullptr && time >= jump->at) wind += jump->change;
+  }
+  return wind;
+}
+
+Vec2 Wind::without_jumps(const Vec2& position, double time) const {
   Vec2 wind = config_.mean;
   if (uniform_) return wind;
   if (config_.shear) {
@@ -83,7 +88,8 @@ Vec2 Wind::at(const Vec2& position, double time) const {
         *config_.shear);
   }
   for (const Gust& gust : config_.gusts) {
-    wind += std::visit([&](const auto& g) { return gust_at(g, time); }, gust);
+    const auto* smooth = std::get_if<OneMinusCosineGust>(&gust);
+    if (smooth != nullptr) wind += gust_at(*smooth, time);
   }
   for (const Vortex& vortex : config_.vortices) {
     wind += std::visit([&](const auto& w) { return whirl_at(w, position, time); }, vortex);
@@ -100,10 +106,11 @@ Vec2 Wind::material_derivative(const Vec2& position, double time) const {
   if (uniform_) return Vec2::Zero();
   constexpr double kHalfSpan = 1e-4;  // [s]; the rounding error is then 1e-11 m/s²
   const Vec2 wind = at(position, time);
-  const Vec2 after = at(position + kHalfSpan * wind, time + kHalfSpan);
-  const double before_time = std::max(0.0, time - kHalfSpan);
-  const Vec2 before = at(position - (time - before_time) * wind, before_time);
-  return (after - before) / (time + kHalfSpan - before_time);
+  const double before = std::max(0.0, time - kHalfSpan);
+  const double after = time + kHalfSpan;
+  return (without_jumps(position + kHalfSpan * wind, after) -
+          without_jumps(position - (time - before) * wind, before)) /
+         (after - before);
 }
 
 double Wind::next_kink(double time) const {

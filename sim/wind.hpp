@@ -246,6 +246,7 @@ class Wind {
   Vec2 at(const Vec2& position, double time) const;
 
   /// Its change along a particle of air, Dw/Dt = ∂w/∂t + (w·∇)w [m/s²], by central differences.
+  /// Where the wind jumps there is no derivative: steps are left out.
   Vec2 material_derivative(const Vec2& position, double time) const;
 
   /// Calls `integrate(begin, end)` for each part of [from, to] during which the wind is smooth in
@@ -266,6 +267,7 @@ class Wind {
   }
 
  private:
+  Vec2 without_jumps(const Vec2& position, double time) const;
   double next_kink(double time) const;
 
   WindConfig config_;

@@ -86,10 +86,14 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
   const double reach = 1.5 * step * std::max(before.velocity.norm(), after.velocity.norm()) +
                        (after.position - before.position).norm();
   // Samples of the path closer than a quarter radius: no wall is thin enough to slip through.
-  const int samples = std::clamp(static_cast<int>(std::ceil(4.0 * reach / body.radius)), 4, 1000);
+  const int wall_samples =
+      std::clamp(static_cast<int>(std::ceil(4.0 * reach / body.radius)), 4, 20000);
+  constexpr int kGroundSamples = 4;  // nobody gets to the other side of the ground
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (static_cast<int>(i) == before.support) continue;
     if (surfaces[i].contact(before.position).distance - body.radius > reach) continue;
+    const int samples =
+        surfaces[i].shape == Surface::Shape::kGround ? kGroundSamples : wall_samples;
     double clear = 0.0;
     for (int k = 0; k <= samples; ++k) {
       const double f = static_cast<double>(k) / samples;

@@ -94,6 +94,34 @@ struct Approach {
 Approach first_approach(const FlightState& before, const FlightState& after, double step,
                         const RoundBody& body, const std::vector<Surface>& surfaces);
 
+/// Where `gap` falls to zero between `clear` and `touching`, to about 1e-12: the Illinois variant
+/// of the false position method (Dowell & Jarratt 1971).
+template <class Gap>
+double find_impact(double clear, double touching, const Gap& gap) {
+  constexpr double kExact = 1e-12;  // [m] and [s]
+  double clear_gap = gap(clear);
+  double touching_gap = gap(touching);
+  if (!(clear_gap > 0.0 && touching_gap < 0.0)) return touching;
+  int same_side = 0;  // how often, with its sign, the same end has moved in a row
+  for (int i = 0; i < 100 && touching - clear > kExact; ++i) {
+    const double guess = (clear * touching_gap - touching * clear_gap) / (touching_gap - clear_gap);
+    const double guess_gap = gap(guess);
+    if (std::abs(guess_gap) < kExact) return guess;
+    if (guess_gap > 0.0) {
+      clear = guess;
+      clear_gap = guess_gap;
+      same_side = std::max(same_side, 0) + 1;
+      if (same_side > 1) touching_gap *= 0.5;
+    } else {
+      touching = guess;
+      touching_gap = guess_gap;
+      same_side = std::min(same_side, 0) - 1;
+      if (same_side < -1) clear_gap *= 0.5;
+    }
+  }
+  return touching;
+}
+
 /// Flies, bounces and rolls over [from, to].
 template <class Rates>
 void fly(FlightState& state, double from, double to, const RoundBody& body,
@@ -120,14 +148,11 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
       return;
     }
     const auto index = static_cast<std::size_t>(approach.surface);
-    double clear = approach.clear * step;
-    double touching = approach.touching * step;
-    for (int i = 0; i < 60 && touching - clear > 1e-12; ++i) {
-      const double middle = 0.5 * (clear + touching);
-      const FlightState trial = runge_kutta(state, time, middle, rates_here);
-      const double gap = surfaces[index].contact(trial.position).distance - body.radius;
-      (gap > 0.0 ? clear : touching) = middle;
-    }
+    const auto gap_after = [&](double part) {
+      const FlightState there = runge_kutta(state, time, part, rates_here);
+      return surfaces[index].contact(there.position).distance - body.radius;
+    };
+    const double touching = find_impact(approach.clear * step, approach.touching * step, gap_after);
     state = runge_kutta(state, time, touching, rates_here);
     time += touching;
     bounce(state, body, surfaces, index);
@@ -135,17 +160,31 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
 }
 
 /// The same for forces that may be stiff: `stiffness(state, time)` is the rate [1/s] at which they
-/// change with the motion, and no step is longer than half its inverse. As drag is quadratic the
-/// rate falls with the speed through the air, so even a balloon in a hurricane needs few steps.
+/// change with the motion. A step is no longer than half its inverse at the beginning, nor, by
+/// trial, than its inverse at the end. As drag is quadratic the rate falls with the speed through
+/// the air, so even a balloon in a hurricane needs few steps.
 template <class Rates, class Stiffness>
 void fly_stiffly(FlightState& state, double from, double to, const RoundBody& body,
                  const std::vector<Surface>& surfaces, const Rates& rates,
                  const Stiffness& stiffness) {
+  const double shortest = 1e-5 * (to - from);
+  double now = stiffness(state, from);
   for (double time = from; time < to;) {
-    const double change = stiffness(state, time) * (to - time);
-    const double end = change <= 0.5 ? to : time + (to - time) * 0.5 / change;
-    fly(state, time, end, body, surfaces, rates);
-    time = end;
+    double step = to - time;
+    if (now * step > 0.5) step = std::max(0.5 / now, shortest);
+    for (;;) {
+      const double end = step >= to - time ? to : time + step;
+      FlightState next = state;
+      fly(next, time, end, body, surfaces, rates);
+      const double then = stiffness(next, end);
+      if (then * step <= 1.0 || step <= shortest) {
+        state = next;
+        now = then;
+        time = end;
+        break;
+      }
+      step = std::max(0.25 * step, shortest);
+    }
   }
 }
 
