@@ -35,7 +35,7 @@ TEST(Balloon, IsNeverFasterThanAGust) {
   for (const double rate : {60.0, 240.0}) {
     WorldConfig config = world_of({target_of(Balloon{})});
     config.environment.gravity = 0.0;
-    config.environment.wind.gusts = {StepGust{0.51, Vec2(60.0, 0.0)}};
+    config.environment.wind.gusts.emplace_back(StepGust{0.51, Vec2(60.0, 0.0)});
     config.physics.rate = rate;
     World world(config, 1);
     double fastest = 0.0;
@@ -53,7 +53,7 @@ TEST(Balloon, OvershootsASmoothGustWithFluidAcceleration) {
   balloon.fluid_acceleration = true;
   WorldConfig config = world_of({target_of(balloon)});
   config.environment.gravity = 0.0;
-  config.environment.wind.gusts = {OneMinusCosineGust{0.5, 1.2, Vec2(30.0, 0.0)}};
+  config.environment.wind.gusts.emplace_back(OneMinusCosineGust{0.5, 1.2, Vec2(30.0, 0.0)});
   World world(config, 1);
   double fastest = 0.0;
   for (int i = 0; i < 400; ++i) {

@@ -116,12 +116,10 @@ class RandomConfig {
   template <class... T>
   void fill(std::variant<T...>& value, const schema::FieldInfo& info) {
     auto wanted = static_cast<std::size_t>(stream_.uniform() * sizeof...(T));
-    const auto try_one = [&]<class A>(A alternative) {
-      if (wanted-- != 0) return;
-      fill(alternative, info);
-      value = alternative;
+    const auto try_one = [&]<class A>(std::type_identity<A>) {
+      if (wanted-- == 0) fill(value.template emplace<A>(), info);
     };
-    (try_one(T{}), ...);
+    (try_one(std::type_identity<T>{}), ...);
   }
 
   template <class T>
