@@ -55,11 +55,12 @@ void hit(Track& track, const Scan& scan, int detection) {
   update(track.filter, found.position, found.covariance);
   track.residual = residual(track.filter);
   track.innovation_covariance = track.prediction.covariance + found.covariance;
-  track.last_seen = scan.time;
+  track.unseen = 0;
   track.history.add_hit();
 }
 
 void miss(Track& track, const SensorTraits& sensor) {
+  ++track.unseen;
   const bool in_view =
       !sensor.field_of_view || sensor.field_of_view->contains(track.prediction.position);
   if (!in_view) return;
@@ -85,8 +86,8 @@ void serve(const TrackerConfig& config, const SensorTraits& sensor,
 }
 
 /// Confirms, and says whether the track lives on.
-bool survives(const TrackerConfig& config, double time, Track& track) {
-  if (time - track.last_seen > config.drop_unseen) return false;
+bool survives(const TrackerConfig& config, Track& track) {
+  if (track.unseen >= config.drop_unseen) return false;
   if (track.status == TrackStatus::kTentative) {
     if (config.drop_tentative.holds_for(track.history)) return false;
     if (!config.confirm.holds_for(track.history)) return true;
@@ -102,7 +103,6 @@ Track begin_track(const TrackerDesign& design, int id, const Scan& scan, std::si
   Track track{.id = id,
               .filter = design.filter_for(detection.label, scan.sensor),
               .label = detection.label,
-              .last_seen = scan.time,
               .history = {},
               .prediction = {detection.position, detection.covariance},
               .innovation_covariance = 2.0 * detection.covariance,
@@ -164,7 +164,7 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
   for (const bool tentative : {false, true}) {
     serve(config, sensor, select(state.tracks, tentative), scan, grid, identities, taken);
   }
-  std::erase_if(state.tracks, [&](Track& track) { return !survives(config, scan.time, track); });
+  std::erase_if(state.tracks, [&](Track& track) { return !survives(config, track); });
 
   for (std::size_t i = 0; i < taken.size(); ++i) {
     const bool known = config.association == Association::kKnown;

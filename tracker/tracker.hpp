@@ -21,8 +21,8 @@ struct Track {
   int id = 0;
   TrackStatus status = TrackStatus::kTentative;
   Filter filter;
-  std::string label;       // of the detection that started it
-  double last_seen = 0.0;  // time of its last detection [s]
+  std::string label;  // of the detection that started it
+  int unseen = 0;     // scans since its last detection
   HitHistory history;
   Prediction prediction;                                            // of this scan's detection
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of this scan's residual [m²]

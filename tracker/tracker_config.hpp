@@ -75,7 +75,7 @@ struct TrackerConfig {
   HitRule confirm;
   MissRule drop_tentative{.misses = 2, .scans = 2};
   MissRule drop_confirmed{.misses = 5, .scans = 5};
-  double drop_unseen = 3.0;                     // longest time without a detection [s]
+  int drop_unseen = 10;                         // scans without a detection, in view or not
   std::map<std::string, FilterConfig> filters;  // by reported class, or "default"
 
   template <class Visitor>
@@ -95,10 +95,8 @@ struct TrackerConfig {
             {.meaning = "when a confirmed track is given up; a miss outside the sensor's field of "
                         "view does not count"});
     v.field("drop_unseen", &TrackerConfig::drop_unseen,
-            {.unit = "s",
-             .meaning = "a track without a detection for longer than this ends, "
-                        "wherever it is",
-             .above = 0.0,
+            {.meaning = "a track without a detection in this many scans ends, in view or not",
+             .minimum = 1,
              .maximum = 1e6});
     v.field("filters", &TrackerConfig::filters,
             {.meaning = "filter by reported class; `default` serves every other class and "

@@ -105,10 +105,10 @@ TEST(Tracker, CoastsThroughMissesAndThenLetsGo) {
   EXPECT_TRUE(tentative.tracks.empty());
 }
 
-// Derived: misses outside the field of view say nothing; after drop_unseen the track ends anyway.
+// Derived: misses outside the field of view say nothing; after 20 scans unseen the track ends anyway.
 TEST(Tracker, MissesOutsideTheFieldOfViewDoNotCount) {
   TrackerConfig config;
-  config.drop_unseen = 2.0;
+  config.drop_unseen = 20;
   const TrackerDesign tracker =
       design(config, {.period = 1,
                       .sigma = 1,
@@ -121,7 +121,7 @@ TEST(Tracker, MissesOutsideTheFieldOfViewDoNotCount) {
     state = step(tracker, std::move(state), scan_of(kPeriod * i, {}));
     ASSERT_EQ(state.tracks.size(), 1U);
   }
-  state = step(tracker, std::move(state), scan_of(2.6, {}));
+  state = step(tracker, std::move(state), scan_of(2.5, {}));
   EXPECT_TRUE(state.tracks.empty());
 }
 
