@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tracker/filters/gains/gains.hpp"
+
 namespace ghtrack {
 
 enum class TrackStatus { kTentative, kConfirmed, kCoasting };
@@ -36,6 +38,14 @@ struct TrackEstimate {
   std::optional<std::size_t> detection;                      // index in the scan, when one was used
   Eigen::Vector2d sigma = Eigen::Vector2d::Zero();           // predicted 1-sigma position error [m]
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of the prior's residual [m²]
+
+  // What the filter's closed forms say of its error: the noise that remains when the target moves
+  // as the filter assumes, and the steady lag truth − estimate when it does not, which is
+  // lag_per_acceleration · a + lag_per_jerk · da/dt. A Kalman filter counts manoeuvres as noise.
+  Gains gains;                                                 // in the steady state
+  Eigen::Vector2d noise_sigma = Eigen::Vector2d::Zero();       // [m]
+  double lag_per_acceleration = 0.0;                           // [s²]
+  double lag_per_jerk = 0.0;                                   // [s³]
 };
 
 /// All tracks after one scan.

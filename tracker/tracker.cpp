@@ -122,6 +122,13 @@ std::vector<Track*> select(std::vector<Track>& tracks, bool tentative) {
   return selected;
 }
 
+void add_lag(TrackEstimate& estimate, const Filter& filter) {
+  if (!std::holds_alternative<GainFilter<2>>(filter)) return;
+  const double lag = steady_lag(filter, 1.0).x;
+  if (estimate.gains.order == 1) estimate.lag_per_acceleration = lag;
+  if (estimate.gains.order == 2) estimate.lag_per_jerk = lag;
+}
+
 }  // namespace
 
 TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors)
@@ -191,7 +198,10 @@ TrackSnapshot snapshot(const TrackerState& state) {
                              .residual = track.residual,
                              .detection = track.detection,
                              .sigma = position_sigma(track.filter),
-                             .innovation_covariance = track.innovation_covariance});
+                             .innovation_covariance = track.innovation_covariance,
+                             .gains = steady_gains(track.filter),
+                             .noise_sigma = noise_sigma(track.filter)});
+    add_lag(result.tracks.back(), track.filter);
   }
   return result;
 }

@@ -134,6 +134,11 @@ Eigen::Vector2d position_sigma(const Filter& filter) {
   return std::visit([](const auto& f) { return f.position_sigma(); }, filter);
 }
 
+Eigen::Vector2d noise_sigma(const Filter& filter) {
+  if (const auto* gains = std::get_if<GainFilter<2>>(&filter)) return gains->noise_sigma();
+  return position_sigma(filter);
+}
+
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement) {
   return std::visit([&](const auto& f) { return f.innovation_covariance(measurement); }, filter);
 }

@@ -76,6 +76,9 @@ const std::optional<Eigen::Vector2d>& residual(const Filter& filter);
 /// Predicted 1-sigma error of the estimated position per axis [m]; after predict() of the
 /// predicted position.
 Eigen::Vector2d position_sigma(const Filter& filter);
+/// What is left of it when the target moves exactly as the filter assumes, per axis [m]. A Kalman
+/// filter cannot tell: its error and its allowance for manoeuvres are one.
+Eigen::Vector2d noise_sigma(const Filter& filter);
 /// Covariance of the residual that a measurement would have after predict() [m²].
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement);
 Eigen::Matrix2d innovation_covariance(const Filter& filter);

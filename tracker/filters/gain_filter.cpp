@@ -77,6 +77,7 @@ bool GainFilter<D>::start(const Vector& z, const Matrix& covariance) {
   if (order >= 2) {
     covariance_.aa.setConstant(errors_.initial_acceleration * errors_.initial_acceleration);
   }
+  noise_ = covariance_;
   elapsed_ = 0.0;
   updates_ = 1;
   misses_ = 0;
@@ -100,6 +101,7 @@ bool GainFilter<D>::predict(double dt) {
   if (!started_) return true;
   prior_ = estimate_ = next;
   covariance_ = covariance;
+  noise_ = extrapolated(noise_, dt);
   residual_.reset();
   interval_ = dt;
   elapsed_ += dt;
@@ -182,6 +184,7 @@ bool GainFilter<D>::correct(const Vector& z, const Axes& variance, const AxisGai
   prior_ = estimate_;
   estimate_ = next;
   covariance_ = covariance;
+  noise_ = corrected(noise_, gain, variance);
   residual_ = residual;
   elapsed_ = 0.0;
   misses_ = 0;

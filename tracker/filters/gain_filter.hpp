@@ -93,6 +93,9 @@ class GainFilter {
   /// Predicted 1-sigma errors of estimate(), per axis.
   Vector position_sigma() const { return covariance_.xx.sqrt().matrix(); }
   Vector velocity_sigma() const { return covariance_.vv.max(0.0).sqrt().matrix(); }
+  /// The part of position_sigma() that measurement errors cause: what is left when the target moves
+  /// exactly as the filter assumes.
+  Vector noise_sigma() const { return noise_.xx.max(0.0).sqrt().matrix(); }
   /// Covariance of the residual of a measurement with this error at estimate() [m²].
   Matrix innovation_covariance(const Matrix& measurement) const {
     return measurement + Matrix(covariance_.xx.matrix().asDiagonal());
@@ -116,6 +119,7 @@ class GainFilter {
   Kinematics<D> prior_;
   Kinematics<D> estimate_;
   AxisCovariance<Axes> covariance_;
+  AxisCovariance<Axes> noise_;  // the same without process noise
   std::optional<Vector> residual_;
   Scheduled used_;
   double interval_;       // time of the last prediction
