@@ -67,7 +67,6 @@ struct WorldScene {
       if (wanted && !has_target(*wanted)) report(key, "no target is called '" + *wanted + "'");
     };
     check_target("video.follow", video->follow);
-    check_target("video.close_up", video->close_up);
   }
 
   /// Is there a target of that name, given by the scene or by name_targets()?

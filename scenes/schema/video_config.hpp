@@ -71,7 +71,6 @@ struct VideoConfig {
   std::vector<Vec2> region;  // lower left and upper right corner; empty: all that happens [m]
   std::optional<std::string> follow;    // the target that stays in the middle of the picture
   double follow_width = 40.0;           // of the world across the picture when following [m]
-  std::optional<std::string> close_up;  // the target that is shown enlarged in a corner
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -107,8 +106,6 @@ struct VideoConfig {
              .meaning = "width of the picture in the world when following a target",
              .above = 0.0,
              .maximum = 1e6});
-    v.field("close_up", &VideoConfig::close_up,
-            {.meaning = "name of the target that is shown enlarged in a corner"});
   }
 
   template <class Report>

@@ -64,7 +64,6 @@ render::VideoOptions video_options(const WorldScene& scene, const World& world,
   options.layers = layers_of(config);
   options.follow = object_named(world, config.follow);
   options.follow_width = config.follow_width;
-  options.close_up = object_named(world, config.close_up);
   return options;
 }
 

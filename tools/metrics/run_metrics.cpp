@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "tracker/filters/gain_filter.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -39,7 +41,7 @@ RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions&
       tallies_(objects_.size()),
       mot_({options.gospa().cutoff, options.gospa().order}) {}
 
-void RunMetrics::add(const StepRecord& record, std::span<const FilterFacts> facts) {
+void RunMetrics::add(const StepRecord& record) {
   score_sets(record);
   update_following(record);
 
@@ -49,10 +51,9 @@ void RunMetrics::add(const StepRecord& record, std::span<const FilterFacts> fact
     ObjectTally& tally = tallies_.at(object);
     ++tally.scans;
     if (chosen[object]) {
-      const std::size_t track = *chosen[object];
-      score_object(truth, record.tracks.tracks[track],
-                   track < facts.size() ? facts[track] : FilterFacts{}, record.truth.time);
-      if (used_object(record.tracks.tracks[track], record.observation) == truth.id) {
+      const TrackEstimate& track = record.tracks.tracks[*chosen[object]];
+      score_object(truth, track, record.truth.time);
+      if (used_object(track, record.observation) == truth.id) {
         ++tally.detections_used;
       }
     }
@@ -133,8 +134,7 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
   return chosen;
 }
 
-void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& track,
-                              const FilterFacts& facts, double time) {
+void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& track, double time) {
   ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
   if (tally.track && tally.track != track.id) ++tally.track_changes;
   tally.track = track.id;
@@ -148,8 +148,8 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   if (tally.before && time > tally.before_time) {
     jerk = (truth.acceleration - tally.before->acceleration) / (time - tally.before_time);
   }
-  const Vec2 lag = facts.lag_per_acceleration * truth.acceleration + facts.lag_per_jerk * jerk;
-  tally.predicted_square += track.sigma.squaredNorm() + lag.squaredNorm();
+  const Vec2 lag = track.lag_per_acceleration * truth.acceleration + track.lag_per_jerk * jerk;
+  tally.predicted_square += track.noise_sigma.squaredNorm() + lag.squaredNorm();
   if (track.sigma.minCoeff() > 0.0) {
     tally.nees.add(error.cwiseQuotient(track.sigma).squaredNorm());
   }
@@ -164,10 +164,10 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   }
 
   const auto usage = std::find_if(tally.usage.begin(), tally.usage.end(), [&](const Usage& u) {
-    return u.filter == track.filter && u.gains == facts.gains;
+    return u.filter == track.filter && u.gains == track.gains;
   });
   if (usage == tally.usage.end()) {
-    tally.usage.push_back({track.filter, std::string(facts.gains), 1});
+    tally.usage.push_back({track.filter, track.gains, 1});
   } else {
     ++usage->scans;
   }
@@ -192,7 +192,7 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
       std::max_element(tally.usage.begin(), tally.usage.end(),
                        [](const Usage& a, const Usage& b) { return a.scans < b.scans; });
   report.filter = leading->filter;
-  report.gains = leading->gains;
+  report.gains = to_text(leading->gains);
   report.rmse_position = std::sqrt(tally.squared_error.mean());
   if (const auto square = tally.squared_error.confidence95()) {
     report.rmse_position_ci95 =

@@ -27,15 +27,6 @@ struct RunMetricsOptions {
   double matching() const { return match_distance.value_or(gospa().cutoff); }
 };
 
-/// What the owner of a run knows about the filter that leads a track. The lag of the estimate
-/// behind a steadily moving object follows from the gains:
-///   lag = lag_per_acceleration · a + lag_per_jerk · da/dt.
-struct FilterFacts {
-  std::string_view gains;             // for the reader, such as "g 0.1, h 0.005"
-  double lag_per_acceleration = 0.0;  // [s²]
-  double lag_per_jerk = 0.0;          // [s³]
-};
-
 /// How well one object was followed. Errors are estimate minus truth, of the confirmed or coasting
 /// track that follows the object: the one that last used a detection made by it. Values that need
 /// data which did not occur are absent.
@@ -53,7 +44,7 @@ struct ObjectReport {
   std::int64_t track_changes = 0;              // times that another track took over
   std::optional<double> rmse_position;         // √ mean |e|² [m]
   std::optional<Interval> rmse_position_ci95;  // 95 % confidence
-  std::optional<double> predicted_rmse;        // √ (mean σx² + σy² + mean |lag|²) [m]
+  std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
   std::optional<double> rmse_velocity;         // [m/s]
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
@@ -91,8 +82,7 @@ class RunMetrics {
  public:
   RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options);
 
-  /// @param facts  parallel to record.tracks.tracks, or empty
-  void add(const StepRecord& record, std::span<const FilterFacts> facts = {});
+  void add(const StepRecord& record);
 
   RunReport report() const;
 
@@ -100,7 +90,7 @@ class RunMetrics {
   /// A filter with its gains, and in how many scans it led.
   struct Usage {
     std::string filter;
-    std::string gains;
+    Gains gains;
     std::int64_t scans = 0;
   };
 
@@ -133,8 +123,7 @@ class RunMetrics {
   void update_following(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
   void score_detections(const StepRecord& record);
-  void score_object(const TruthState& truth, const TrackEstimate& track, const FilterFacts& facts,
-                    double time);
+  void score_object(const TruthState& truth, const TrackEstimate& track, double time);
   ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
 
   std::vector<ObjectInfo> objects_;

@@ -54,6 +54,7 @@ TEST(RunMetrics, MeasuresErrorsPerObject) {
     TrackEstimate estimate = track(1, {0.0, 0.2});
     estimate.velocity = {1.0, 2.0};
     estimate.sigma = {0.1, 0.1};
+    estimate.noise_sigma = {0.1, 0.1};
     estimate.detection = 0;
     estimate.residual = Vec2(0.6, 0.8);
     estimate.innovation_covariance = 0.5 * Eigen::Matrix2d::Identity();
@@ -93,15 +94,16 @@ TEST(RunMetrics, AddsTheLagToThePrediction) {
     StepRecord record = one_object(0.5 * i);
     record.truth.objects[0].acceleration = {0.0, 2.0};
     TrackEstimate estimate = track(1, {0.0, 0.0});
-    estimate.sigma = {0.3, 0.0};
+    estimate.noise_sigma = {0.3, 0.0};
+    estimate.gains = Gains::of_gh(0.1, 0.01);
+    estimate.lag_per_acceleration = 0.2;
     estimate.detection = 0;
     record.tracks.tracks = {estimate};
-    const FilterFacts facts{.gains = "g 0.1, h 0.01", .lag_per_acceleration = 0.2};
-    metrics.add(record, {&facts, 1});
+    metrics.add(record);
   }
   const RunReport report = metrics.report();
   EXPECT_NEAR(*report.objects[0].predicted_rmse, 0.5, 1e-12);
-  EXPECT_EQ(report.objects[0].gains, "g 0.1, h 0.01");
+  EXPECT_EQ(report.objects[0].gains, "g=0.1 h=0.01");
 }
 
 // Derived: three of ten scans without a used detection; tentative tracks are no output.
