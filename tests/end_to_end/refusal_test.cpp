@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"ghtrack run missing.yaml", 2, "missing.yaml"},
                       Wrong{"ghtrack check " + kScene + " missing.yaml", 2, "missing.yaml"},
                       Wrong{"ghtrack video " + kScene + " -o 'a:b.mp4'", 2, "a:b.mp4"},
-                      Wrong{"ghtrack video " + kScene + " -o tcp://127.0.0.1/x.mp4", 1, "tcp:"},
+                      Wrong{"ghtrack video " + kScene + " -o tcp://127.0.0.1/x.mp4", 2, "file name"},
                       Wrong{"ghtrack video " + kScene + " -o x.mp4 --size 321x241", 2, "even"},
                       Wrong{"ghtrack video " + kScene + " -o x.exe", 2, "mp4"}));
 

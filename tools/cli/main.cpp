@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
+#include <system_error>
 
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
@@ -289,6 +291,13 @@ int guarded_main(int argc, char** argv) try {
   return report(kInputWrong, fmt::format("ghtrack: error: {}", error.what()).c_str());
 } catch (const Interrupted& interrupted) {
   return report(128 + interrupted.signal, "ghtrack: interrupted; nothing was written");
+} catch (const std::filesystem::filesystem_error& error) {
+  return report(kEnvironmentFailed, fmt::format("ghtrack: error: {}", error.what()).c_str());
+} catch (const std::system_error& error) {  // only printing throws it
+  return report(
+      kEnvironmentFailed,
+      fmt::format("ghtrack: error: standard output cannot be written: {}", error.code().message())
+          .c_str());
 } catch (const std::bad_alloc&) {
   return report(kEnvironmentFailed, "ghtrack: error: out of memory");
 } catch (const std::exception& error) {

@@ -160,6 +160,7 @@ TEST(RunMetrics, FindsAConsistentFilterConsistent) {
     const double y = noise(random);
     TrackEstimate estimate = track(1, {x, y});
     estimate.sigma = {0.25, 0.25};
+    estimate.noise_sigma = estimate.sigma;
     estimate.detection = 0;
     const double rx = noise(random);
     const double ry = noise(random);
