@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -28,7 +29,19 @@ Vec2 predicted_position(const TrackEstimate& track, double ahead) {
 
 Color TrackPainter::color_of(const TrackEstimate& track) const {
   if (track.status == TrackStatus::kTentative) return dark::kTentative;
-  return color_ ? *color_ : track_color(track.id);
+  if (color_) return *color_;
+  const auto trace = traces_.find(track.id);
+  const bool has_own = trace != traces_.end() && trace->second.color;
+  return has_own ? kTrackColors[*trace->second.color] : track_color(track.id);
+}
+
+/// Tracks that are alive together look different as long as there are colours.
+std::size_t TrackPainter::least_used_color() const {
+  std::array<int, kTrackColors.size()> uses{};
+  for (const auto& [id, trace] : traces_) {
+    if (trace.color) ++uses[*trace.color];
+  }
+  return static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin());
 }
 
 std::u32string TrackPainter::label_text(const TrackEstimate& track) const {
@@ -96,6 +109,7 @@ void TrackPainter::remember(const VideoFrame& frame, const PanelFrame& panel) {
       if (is_new) trace.label_position = track.position;
       trace.seen = true;
       trace.last = track;
+      if (!trace.color && track.status != TrackStatus::kTentative) trace.color = least_used_color();
       trace.trail.emplace_back(panel.tracks.time, track.position);
     }
     note_switches(frame, panel);

@@ -34,8 +34,9 @@ class TrackPainter {
     TrackEstimate last;
     Vec2 label_position = Vec2::Zero();  // [m] where the label hangs: the position, smoothed
     std::u32string label;
-    double label_time = 0.0;  // [s] when the label was written
-    bool seen = false;        // in the latest snapshot
+    double label_time = 0.0;           // [s] when the label was written
+    std::optional<std::size_t> color;  // index in the palette, from the confirmation on
+    bool seen = false;                 // in the latest snapshot
   };
   struct Event {
     Sign sign;  // kLost or kSwitch
@@ -45,6 +46,7 @@ class TrackPainter {
   };
 
   Color color_of(const TrackEstimate& track) const;
+  std::size_t least_used_color() const;
   std::u32string label_text(const TrackEstimate& track) const;
   void draw_gate(Canvas& canvas, const View& view, const TrackEstimate& track,
                  const Style& style) const;
