@@ -39,7 +39,7 @@ struct WorldScene {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("name", &WorldScene::name,
-            {.meaning = "names the folder of the results", .required = true});
+            {.meaning = "names the folder of the results; by default the name of the file"});
     v.field("seed", &WorldScene::seed, {.meaning = "chooses every random number of the run"});
     v.field("duration", &WorldScene::duration,
             {.unit = "s", .meaning = "length of the run", .above = 0.0, .maximum = 1e6});

@@ -71,6 +71,11 @@ void name_sensors(std::vector<SensorConfig>& sensors) {
 Scene read_scene_text(std::string_view text, const std::string& name,
                       std::span<const std::string> overrides) {
   auto file = schema::read_configuration_text<SceneFile>(text, name, overrides);
+  std::visit(
+      [&](auto& scene) {
+        if (scene.name.empty()) scene.name = std::filesystem::path(name).stem().string();
+      },
+      file.scene);
   if (auto* const world = std::get_if<WorldScene>(&file.scene)) {
     name_targets(world->targets);
     name_sensors(world->sensors);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenes/schema/names.hpp"
+#include "tracker/filters/gains/gains.hpp"
 
 namespace ghtrack {
 
@@ -139,10 +140,7 @@ struct SeriesGhk {
   static constexpr std::string_view about =
       "position, rate and acceleration; ddx += 2 k r / dt² as in FilterPy and Brookner";
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> misnomers{
-      {{"gamma",
-        "has three meanings; give k instead, which adds 2 k r / dt² to the acceleration: k = "
-        "gamma / 4 if your text adds gamma r / (2 dt²), k = gamma / 2 if it adds gamma r / dt², "
-        "k = gamma if it adds 2 gamma r / dt²"}}};
+      {{"gamma", kGammaIsAmbiguous}}};
   double ddx0 = 0.0;
   double g = 0.2;
   double h = 0.02;
@@ -222,7 +220,7 @@ struct SeriesScene {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("name", &SeriesScene::name,
-            {.meaning = "names the folder of the results", .required = true});
+            {.meaning = "names the folder of the results; by default the name of the file"});
     v.field("seed", &SeriesScene::seed, {.meaning = "chooses the noise"});
     v.field("dt", &SeriesScene::dt,
             {.unit = "s", .meaning = "time between measurements", .minimum = 1e-9, .maximum = 1e9});
@@ -237,7 +235,8 @@ struct SeriesScene {
 
   template <class Report>
   void check(Report&& report) const {
-    if (const auto flaw = flaw_of_name(name); !flaw.empty()) report("name", flaw);
+    const auto flaw = flaw_of_name(name);
+    if (!name.empty() && !flaw.empty()) report("name", flaw);
     report_repeated_names(filters, "filters", report);
   }
 };

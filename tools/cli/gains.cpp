@@ -38,10 +38,7 @@ int order_of(const GainsCommandOptions& options, int lowest) {
 
 Gains manual(const GainsCommandOptions& options) {
   if (options.gamma) {
-    throw UsageError(
-        "gains manual: a bare gamma is ambiguous. Three conventions share the name: a += gamma r / "
-        "dt^2 (then --k is gamma / 2), a += gamma r / (2 dt^2) (--k is gamma / 4) and a += 2 gamma "
-        "r / dt^2 (--k is gamma). Give --k, the gain in a += 2 k r / dt^2");
+    throw UsageError(fmt::format("gains manual: a bare gamma {}", kGammaIsAmbiguous));
   }
   const double g = need(options.g, "--g", "manual");
   if (!options.h && !options.k) return Gains::of_g(g);
@@ -96,6 +93,8 @@ Gains gains_by_rule(const GainsCommandOptions& options) {
   }
   try {
     return rule->second(options);
+  } catch (const UsageError&) {
+    throw;
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("gains {}: {}", options.rule, error.what()));
   }
@@ -118,8 +117,8 @@ ordered_json analysis_of(const Gains& gains, const GainsCommandOptions& options)
   const int order = gains.order;
   ordered_json json;
   json["g"] = gains.g;
-  json["h"] = order >= 1 ? ordered_json(gains.h) : ordered_json();
-  json["k"] = order >= 2 ? ordered_json(gains.k) : ordered_json();
+  json["h"] = gains.h;
+  json["k"] = gains.k;
   json["order"] = order;
   json["stable"] = !violated;
   json["damping"] = to_string(damping(gains));

@@ -44,7 +44,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   command.footer(
       "Examples:\n"
       "  ghtrack run scenes/three_regimes.yaml\n"
-      "  ghtrack run scenes/throwing.yaml --seed 3 --set sensors[0].noise=1.5 --no-video\n"
+      "  ghtrack run scenes/throwing.yaml --seed 3 --set sensors[0].noise=1 --set duration=5\n"
       "  ghtrack run scenes/*.yaml -o out/all --duration 5 --no-video");
 }
 

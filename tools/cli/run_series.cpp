@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 using render::PlotSeries;
 
+constexpr std::size_t kMostWithPredictions = 2;  // filters in one plot, or it gets crowded
+
 std::string as_csv(const SeriesResult& result) {
   CsvRow csv;
   for (const char* name : {"filter", "k", "t", "z", "x_pred", "dx_pred", "residual", "x", "dx",
@@ -102,9 +104,9 @@ render::Plot as_plot(const SeriesScene& scene, const SeriesResult& result) {
       curve(first, PlotSeries::Style::kMeasurement, "measurements", 0, &SeriesRow::z));
   int index = 0;
   for (const SeriesTrack& track : result.tracks) {
-    if (result.tracks.size() == 1) {
-      plot.series.push_back(
-          curve(track, PlotSeries::Style::kPrediction, "predictions", index, &SeriesRow::x_pred));
+    if (result.tracks.size() <= kMostWithPredictions) {
+      plot.series.push_back(curve(track, PlotSeries::Style::kPrediction, track.filter + ", predicted",
+                                  index, &SeriesRow::x_pred));
     }
     plot.series.push_back(curve(track, PlotSeries::Style::kEstimate,
                                 track.filter + " (" + track.gains + ")", index, &SeriesRow::x));

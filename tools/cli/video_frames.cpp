@@ -1,5 +1,11 @@
 #include "tools/cli/video_frames.hpp"
 
+#include <algorithm>
+#include <numbers>
+#include <variant>
+
+#include "sim/regimes/rail_line.hpp"
+#include "sim/regimes/train.hpp"
 #include "tools/pipeline/simulation.hpp"
 
 namespace ghtrack::cli {
@@ -11,10 +17,28 @@ std::vector<double> frame_times(const render::VideoOptions& options, double dura
   return times;
 }
 
+/// The line of a train's rails, fine enough to look smooth.
+std::vector<Vec2> rails_of(const Train& train) {
+  constexpr double kSpacing = 5.0;  // [m]
+  const RailLine line(train.track, train.position, train.heading_deg * std::numbers::pi / 180.0);
+  const auto pieces = static_cast<int>(std::clamp(line.length() / kSpacing, 1.0, 2000.0));
+  std::vector<Vec2> rails;
+  for (int i = 0; i <= pieces; ++i) {
+    rails.push_back(line.at(line.length() * i / pieces).position);
+  }
+  return rails;
+}
+
 render::SceneDrawing drawing_of(const WorldScene& scene, const World& world) {
   render::SceneDrawing drawing;
   drawing.title = scene.name;
   drawing.seed = scene.seed;
+  drawing.duration = scene.duration;
+  for (const Target& target : scene.targets) {
+    if (const auto* train = std::get_if<Train>(&target.motion)) {
+      drawing.rails.push_back(rails_of(*train));
+    }
+  }
   drawing.objects = world.objects();
   if (scene.video && scene.video->region.size() == 2) {
     drawing.world = render::Rectangle{scene.video->region[0], scene.video->region[1]};
@@ -69,10 +93,19 @@ render::VideoOptions video_options(const WorldScene& scene, const World& world,
 
 VideoFrames::VideoFrames(const WorldScene& scene, const World& world,
                          const render::VideoOptions& options, bool quiet)
-    : writer_(options, drawing_of(scene, world)),
-      times_(frame_times(options, scene.duration)),
+    : VideoFrames(world, options, drawing_of(scene, world), scene.duration, quiet) {}
+
+VideoFrames::VideoFrames(const World& world, const render::VideoOptions& options,
+                         const render::SceneDrawing& drawing, double duration, bool quiet)
+    : world_(world),
+      writer_(options, drawing),
+      times_(frame_times(options, duration)),
       progress_("video", "frames", times_.size(), quiet) {
   frame_.panels.resize(1);
+  if (!options.layers.shows(render::Layer::kWind)) return;
+  for (const Vec2& position : render::wind_points(options, drawing)) {
+    frame_.wind.push_back({position, Vec2::Zero()});
+  }
 }
 
 void VideoFrames::add_scan(const StepRecord& record) {
@@ -84,6 +117,9 @@ void VideoFrames::add_scan(const StepRecord& record) {
 void VideoFrames::add_frame(const TruthSnapshot& truth) {
   frame_.time = truth.time;
   frame_.truth = truth;
+  for (render::WindSample& sample : frame_.wind) {
+    sample.velocity = world_.environment().wind().at(sample.position, truth.time);
+  }
   frame_.observations.clear();
   for (const auto& [sensor, observation] : latest_) frame_.observations.push_back(observation);
   writer_.add_frame(frame_);

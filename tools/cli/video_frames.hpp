@@ -20,6 +20,7 @@ render::VideoOptions video_options(const WorldScene& scene, const World& world,
 /// Turns a run into a video: remembers what the tracker knew and draws it at each frame's time.
 class VideoFrames {
  public:
+  /// @param world  of the run; must outlive this
   VideoFrames(const WorldScene& scene, const World& world, const render::VideoOptions& options,
               bool quiet);
 
@@ -31,6 +32,10 @@ class VideoFrames {
   render::VideoWriter& writer() { return writer_; }
 
  private:
+  VideoFrames(const World& world, const render::VideoOptions& options,
+              const render::SceneDrawing& drawing, double duration, bool quiet);
+
+  const World& world_;
   render::VideoWriter writer_;
   std::vector<double> times_;
   std::map<int, Observation> latest_;  // by sensor

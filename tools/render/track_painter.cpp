@@ -119,7 +119,7 @@ void TrackPainter::remember(const VideoFrame& frame, const PanelFrame& panel) {
     std::erase_if(traces_, [](const auto& entry) { return !entry.second.seen; });
   }
 
-  const double since = std::max(0.0, frame.time - frame_time_);
+  const double since = std::max(0.0, frame.time - frame_time_.value_or(frame.time));
   frame_time_ = frame.time;
   for (auto& [id, trace] : traces_) {
     while (!trace.trail.empty() && trace.trail.front().first < frame.time - kTrailSeconds)

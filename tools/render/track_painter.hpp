@@ -67,7 +67,7 @@ class TrackPainter {
   std::vector<Event> events_;
   double snapshot_time_ = -1.0;
   int snapshot_sensor_ = -1;
-  double frame_time_ = 0.0;
+  std::optional<double> frame_time_;  // [s] of the frame before
   LabelLayout labels_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 namespace ghtrack {
 
 /// Gains of a filter that carries position (order 0), velocity (1) and acceleration (2).
@@ -27,5 +29,11 @@ constexpr double gamma_over_t2_from_k(double k) { return 2.0 * k; }
 /// From a += (γ / 2T²) r, as in Kalata (1984) and Bar-Shalom & Li: γ = 4k.
 constexpr double k_from_gamma_over_2t2(double gamma) { return gamma / 4.0; }
 constexpr double gamma_over_2t2_from_k(double k) { return 4.0 * k; }
+
+/// What to tell somebody who gives a bare gamma.
+inline constexpr std::string_view kGammaIsAmbiguous =
+    "has three meanings; give k instead, which adds 2 k r / dt² to the acceleration: k = gamma / 4 "
+    "if your text adds gamma r / (2 dt²), k = gamma / 2 if it adds gamma r / dt², k = gamma if it "
+    "adds 2 gamma r / dt²";
 
 }  // namespace ghtrack
