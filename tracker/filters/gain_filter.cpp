@@ -40,6 +40,7 @@ GainFilter<D>::GainFilter(const GainSchedule& schedule, const ErrorModel& errors
     : schedule_(schedule),
       errors_(errors),
       covariance_(on_all_axes<Axes>({})),
+      noise_(covariance_),
       used_{schedule.steady, schedule.interval},
       interval_(schedule.interval) {}
 

@@ -44,7 +44,7 @@ TEST(Series, AnAcceleratingTargetIsFollowedWithTheClosedFormLag) {
   filter.name = "lagging";
   filter.model = SeriesGh{.g = 0.2, .h = 0.02};
   scene.filters = {filter};
-  const SeriesRow& last = run(scene).tracks.at(0).rows.back();
+  const SeriesRow last = run(scene).tracks.at(0).rows.back();
   EXPECT_NEAR(*last.truth - last.x, 0.8 * 9.0 / 0.02, 1e-6);
 }
 

@@ -77,8 +77,9 @@ TEST(Picture, HidesWhatIsToBeHidden) {
   }
 }
 
-// Derived: an estimate's ring has the colour of its id, 10 px around its position.
-TEST(Picture, DrawsAnEstimateInTheColourOfItsId) {
+// Derived: an estimate's ring lies 10 px around its position; tracks that are alive together have
+// different colours, whatever their ids.
+TEST(Picture, DrawsEstimatesThatAreAliveTogetherInDifferentColours) {
   const VideoOptions options;
   const SceneDrawing scene = one_ball();
   VideoFrame frame = ball_at({20.0, 20.0});
@@ -86,11 +87,17 @@ TEST(Picture, DrawsAnEstimateInTheColourOfItsId) {
   track.id = 2;
   track.status = TrackStatus::kConfirmed;
   track.position = track.prior_position = {120.0, 60.0};
-  frame.panels[0].tracks.tracks = {track};
+  TrackEstimate other = track;
+  other.id = track.id + static_cast<int>(kTrackColors.size());
+  other.position = other.prior_position = {60.0, 30.0};
+  frame.panels[0].tracks.tracks = {track, other};
   const cv::Mat image = draw(options, scene, frame);
-  const Pixel at = view_of(options, scene).to_pixel(track.position);
-  EXPECT_EQ(color_at(image, {at.x + 10.0, at.y}), track_color(2));
-  EXPECT_EQ(color_at(image, {at.x, at.y - 10.0}), track_color(2));
+  const View view = view_of(options, scene);
+  const Pixel at = view.to_pixel(track.position);
+  const Pixel other_at = view.to_pixel(other.position);
+  EXPECT_EQ(color_at(image, {at.x + 10.0, at.y}), kTrackColors[0]);
+  EXPECT_EQ(color_at(image, {at.x, at.y - 10.0}), kTrackColors[0]);
+  EXPECT_EQ(color_at(image, {other_at.x + 10.0, other_at.y}), kTrackColors[1]);
 }
 
 // Property: objects and tracks beyond any measure break nothing.
