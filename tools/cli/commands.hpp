@@ -43,7 +43,7 @@ struct VideoCommandOptions {
 struct FilterCommandOptions {
   std::string file = "-";  // series, or - for standard input
   std::string filter = "gh";
-  std::optional<double> g, h, k, theta, q, r, p0, u;
+  std::optional<double> g, h, k, gamma, theta, q, r, p0, u;
   std::string x0, dx0, ddx0;  // comma-separated, one per axis; empty: 0
   std::optional<int> order;
   double dt = 1.0;       // [s]

@@ -77,6 +77,10 @@ const std::map<std::string, Rule, std::less<>>& rules() {
        }},
       {"tracking-index",
        [](const Options& o) { return tracking_index_gains(order_of(o, 0), index_of(o)); }},
+      {"maximum-acceleration",
+       [](const Options& o) {
+         return maximum_acceleration_gains(std::abs(o.accel) * o.dt * o.dt / o.sigma);
+       }},
       {"polge-bhagavan",
        [](const Options& o) { return polge_bhagavan_gains(need(o.g, "--g", o.rule)); }},
   };

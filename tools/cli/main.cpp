@@ -92,6 +92,7 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
   command.add_option("--g", options.g, "position gain");
   command.add_option("--h", options.h, "velocity gain");
   command.add_option("--k", options.k, "acceleration gain: a += 2 k r / dt^2");
+  command.add_option("--gamma", options.gamma, "refused: three conventions share this name");
   command.add_option("--theta", options.theta, "fading-memory: weight of the past, 0 <= theta < 1");
   command.add_option("--order", options.order, "least-squares, fading-memory: 0, 1 or 2");
   command.add_option("--q", options.q, "Kalman: process noise");
@@ -117,7 +118,7 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
   command
       .add_option("RULE", options.rule,
                   "manual, benedict-bordner, critical-damping, fading-memory, least-squares, "
-                  "tracking-index or polge-bhagavan")
+                  "tracking-index, polge-bhagavan or maximum-acceleration (--accel --sigma --dt)")
       ->required();
   command.add_option("--g", options.g, "position gain");
   command.add_option("--h", options.h, "velocity gain");

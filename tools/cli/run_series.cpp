@@ -105,8 +105,8 @@ render::Plot as_plot(const SeriesScene& scene, const SeriesResult& result) {
   int index = 0;
   for (const SeriesTrack& track : result.tracks) {
     if (result.tracks.size() <= kMostWithPredictions) {
-      plot.series.push_back(curve(track, PlotSeries::Style::kPrediction, track.filter + ", predicted",
-                                  index, &SeriesRow::x_pred));
+      plot.series.push_back(curve(track, PlotSeries::Style::kPrediction,
+                                  track.filter + ", predicted", index, &SeriesRow::x_pred));
     }
     plot.series.push_back(curve(track, PlotSeries::Style::kEstimate,
                                 track.filter + " (" + track.gains + ")", index, &SeriesRow::x));

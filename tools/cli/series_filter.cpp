@@ -45,6 +45,9 @@ int need_order(const FilterCommandOptions& options) {
 /// Constant gains, for those filters that have them.
 std::optional<Gains> constant_gains(const FilterCommandOptions& options) {
   const std::string& filter = options.filter;
+  if (options.gamma) {
+    throw UsageError(fmt::format("filter {}: a bare gamma {}", filter, kGammaIsAmbiguous));
+  }
   try {
     if (filter == "order0") return Gains::of_g(need(options, options.g, "--g"));
     if (filter == "gh") {
