@@ -4,55 +4,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "scenes/schema/video_layer.hpp"
 #include "sim/truth.hpp"
 
 namespace ghtrack {
-
-/// What a picture may show, from back to front.
-enum class VideoLayer {
-  kGrid,
-  kFieldOfView,
-  kGround,
-  kRails,
-  kWind,
-  kTruth,
-  kNames,
-  kTrails,
-  kGates,
-  kResiduals,
-  kDetections,
-  kClutter,
-  kTracks,
-  kFans,
-  kLabels,
-  kInsets,
-  kHud,
-  kLegend,
-};
-
-constexpr std::array<std::pair<std::string_view, VideoLayer>, 18> enum_names(VideoLayer) {
-  return {{{"grid", VideoLayer::kGrid},
-           {"field-of-view", VideoLayer::kFieldOfView},
-           {"ground", VideoLayer::kGround},
-           {"rails", VideoLayer::kRails},
-           {"wind", VideoLayer::kWind},
-           {"truth", VideoLayer::kTruth},
-           {"names", VideoLayer::kNames},
-           {"trails", VideoLayer::kTrails},
-           {"gates", VideoLayer::kGates},
-           {"residuals", VideoLayer::kResiduals},
-           {"detections", VideoLayer::kDetections},
-           {"clutter", VideoLayer::kClutter},
-           {"tracks", VideoLayer::kTracks},
-           {"fans", VideoLayer::kFans},
-           {"labels", VideoLayer::kLabels},
-           {"insets", VideoLayer::kInsets},
-           {"hud", VideoLayer::kHud},
-           {"legend", VideoLayer::kLegend}}};
-}
 
 /// The annotated video of a run.
 struct VideoConfig {
@@ -63,14 +20,10 @@ struct VideoConfig {
   double slow = 1.0;                   // video time per scene time
   double from = 0.0;                   // scene time of the first frame [s]
   std::optional<double> to;            // scene time of the last frame; absent: the scene's end [s]
-  std::vector<VideoLayer> show{
-      VideoLayer::kGrid,      VideoLayer::kFieldOfView, VideoLayer::kGround,  VideoLayer::kRails,
-      VideoLayer::kWind,      VideoLayer::kTruth,       VideoLayer::kTrails,  VideoLayer::kGates,
-      VideoLayer::kResiduals, VideoLayer::kDetections,  VideoLayer::kClutter, VideoLayer::kTracks,
-      VideoLayer::kLabels,    VideoLayer::kHud,         VideoLayer::kLegend};
+  std::vector<VideoLayer> show{kDefaultVideoLayers.begin(), kDefaultVideoLayers.end()};
   std::vector<Vec2> region;  // lower left and upper right corner; empty: all that happens [m]
-  std::optional<std::string> follow;    // the target that stays in the middle of the picture
-  double follow_width = 40.0;           // of the world across the picture when following [m]
+  std::optional<std::string> follow;  // the target that stays in the middle of the picture
+  double follow_width = 40.0;         // of the world across the picture when following [m]
 
   template <class Visitor>
   static void describe(Visitor& v) {

@@ -61,17 +61,6 @@ std::optional<ObjectId> object_named(const World& world, const std::optional<std
   return std::nullopt;
 }
 
-/// The scene and the renderer name the same layers.
-render::Layers layers_of(const VideoConfig& config) {
-  render::Layers layers;
-  for (const VideoLayer wanted : config.show) {
-    for (const auto& [name, layer] : enum_names(wanted)) {
-      if (layer == wanted) layers.show(*render::layer_named(name));
-    }
-  }
-  return layers;
-}
-
 }  // namespace
 
 render::VideoOptions video_options(const WorldScene& scene, const World& world,
@@ -85,7 +74,7 @@ render::VideoOptions video_options(const WorldScene& scene, const World& world,
   options.slow = config.slow;
   options.from = config.from;
   options.to = config.to;
-  options.layers = layers_of(config);
+  options.layers = render::Layers(config.show);
   options.follow = object_named(world, config.follow);
   options.follow_width = config.follow_width;
   return options;

@@ -1,57 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string_view>
-#include <utility>
+
+#include "scenes/schema/video_layer.hpp"
 
 namespace ghtrack::render {
 
-/// What a picture may show, from back to front.
-enum class Layer : std::uint32_t {
-  kGrid,
-  kFieldOfView,
-  kGround,
-  kRails,
-  kWind,
-  kTruth,
-  kNames,
-  kTrails,
-  kGates,
-  kResiduals,
-  kDetections,
-  kClutter,
-  kTracks,
-  kFans,
-  kLabels,
-  kInsets,
-  kHud,
-  kLegend,
-};
-
-/// The layers as scenes and options name them.
-constexpr std::array<std::pair<std::string_view, Layer>, 18> enum_names(Layer) {
-  return {{{"grid", Layer::kGrid},
-           {"field-of-view", Layer::kFieldOfView},
-           {"ground", Layer::kGround},
-           {"rails", Layer::kRails},
-           {"wind", Layer::kWind},
-           {"truth", Layer::kTruth},
-           {"names", Layer::kNames},
-           {"trails", Layer::kTrails},
-           {"gates", Layer::kGates},
-           {"residuals", Layer::kResiduals},
-           {"detections", Layer::kDetections},
-           {"clutter", Layer::kClutter},
-           {"tracks", Layer::kTracks},
-           {"fans", Layer::kFans},
-           {"labels", Layer::kLabels},
-           {"insets", Layer::kInsets},
-           {"hud", Layer::kHud},
-           {"legend", Layer::kLegend}}};
-}
+using Layer = VideoLayer;
 
 /// The layer of that name, if there is one.
 constexpr std::optional<Layer> layer_named(std::string_view name) {
@@ -64,7 +22,7 @@ constexpr std::optional<Layer> layer_named(std::string_view name) {
 class Layers {
  public:
   constexpr Layers() = default;
-  constexpr Layers(std::initializer_list<Layer> layers) {
+  constexpr explicit Layers(std::span<const Layer> layers) {
     for (const Layer layer : layers) show(layer);
   }
 
@@ -81,11 +39,6 @@ class Layers {
   std::uint32_t bits_ = 0;
 };
 
-/// What a video shows unless told otherwise: all but the names of the true objects, the fans of
-/// future positions and the inset plots.
-inline constexpr Layers kDefaultLayers{
-    Layer::kGrid,    Layer::kFieldOfView, Layer::kGround, Layer::kRails,     Layer::kWind,
-    Layer::kTruth,   Layer::kTrails,      Layer::kGates,  Layer::kResiduals, Layer::kDetections,
-    Layer::kClutter, Layer::kTracks,      Layer::kLabels, Layer::kHud,       Layer::kLegend};
+inline constexpr Layers kDefaultLayers{kDefaultVideoLayers};
 
 }  // namespace ghtrack::render

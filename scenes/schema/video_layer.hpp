@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace ghtrack {
+
+/// What a picture may show, from back to front.
+enum class VideoLayer : std::uint32_t {
+  kGrid,
+  kFieldOfView,
+  kGround,
+  kRails,
+  kWind,
+  kTruth,
+  kNames,
+  kTrails,
+  kGates,
+  kResiduals,
+  kDetections,
+  kClutter,
+  kTracks,
+  kFans,
+  kLabels,
+  kInsets,
+  kHud,
+  kLegend,
+};
+
+/// The layers as scenes and options name them.
+constexpr std::array<std::pair<std::string_view, VideoLayer>, 18> enum_names(VideoLayer) {
+  return {{{"grid", VideoLayer::kGrid},
+           {"field-of-view", VideoLayer::kFieldOfView},
+           {"ground", VideoLayer::kGround},
+           {"rails", VideoLayer::kRails},
+           {"wind", VideoLayer::kWind},
+           {"truth", VideoLayer::kTruth},
+           {"names", VideoLayer::kNames},
+           {"trails", VideoLayer::kTrails},
+           {"gates", VideoLayer::kGates},
+           {"residuals", VideoLayer::kResiduals},
+           {"detections", VideoLayer::kDetections},
+           {"clutter", VideoLayer::kClutter},
+           {"tracks", VideoLayer::kTracks},
+           {"fans", VideoLayer::kFans},
+           {"labels", VideoLayer::kLabels},
+           {"insets", VideoLayer::kInsets},
+           {"hud", VideoLayer::kHud},
+           {"legend", VideoLayer::kLegend}}};
+}
+
+/// What a video shows unless told otherwise: all but the names of the true objects, the fans of
+/// future positions and the inset plots.
+inline constexpr std::array kDefaultVideoLayers{
+    VideoLayer::kGrid,      VideoLayer::kFieldOfView, VideoLayer::kGround,  VideoLayer::kRails,
+    VideoLayer::kWind,      VideoLayer::kTruth,       VideoLayer::kTrails,  VideoLayer::kGates,
+    VideoLayer::kResiduals, VideoLayer::kDetections,  VideoLayer::kClutter, VideoLayer::kTracks,
+    VideoLayer::kLabels,    VideoLayer::kHud,         VideoLayer::kLegend};
+
+}  // namespace ghtrack
