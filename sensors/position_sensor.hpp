@@ -40,7 +40,8 @@ struct PositionSensor {
     v.field("noise_y", &PositionSensor::noise_y,
             {.unit = "m",
              .meaning = "1-sigma error along y if it differs",
-             .above = 0.0, .maximum = 1e6});
+             .above = 0.0,
+             .maximum = 1e6});
     v.field("bias", &PositionSensor::bias,
             {.unit = "m",
              .meaning = "constant error added to every position",

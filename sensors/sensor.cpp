@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 namespace ghtrack {
 namespace {
-
-using View = std::optional<Eigen::AlignedBox2d>;
-
-View view_of(const SensorConfig& sensor) {
-  if (sensor.field_of_view.size() != 2) return std::nullopt;
-  return Eigen::AlignedBox2d(sensor.field_of_view[0], sensor.field_of_view[1]);
-}
 
 /// The classes a detector can report, each once, in a fixed order.
 std::vector<std::string> labels_of(const std::vector<ObjectInfo>& objects) {
@@ -44,7 +38,9 @@ std::string reported_label(double classify, const std::string& right,
 SensorTraits traits_of(const SensorConfig& sensor) {
   const double sigma =
       std::visit([](const auto& model) { return model.typical_sigma(); }, sensor.model);
-  return {.period = 1.0 / sensor.rate, .sigma = sigma, .field_of_view = view_of(sensor)};
+  return {.period = 1.0 / sensor.rate,
+          .sigma = sigma,
+          .field_of_view = box_between(sensor.field_of_view)};
 }
 
 double scan_time(const SensorConfig& sensor, std::int64_t scan) {
@@ -56,7 +52,7 @@ Observation observe(const SensorConfig& sensor, int sensor_index, std::int64_t s
                     std::uint64_t seed) {
   const std::uint64_t sensor_key = key_of(sensor.name);
   const auto step = static_cast<std::uint64_t>(scan);
-  const View view = view_of(sensor);
+  const std::optional<Eigen::AlignedBox2d> view = box_between(sensor.field_of_view);
   const std::vector<std::string> labels = labels_of(objects);
   std::vector<std::pair<Detection, ObjectId>> found;
 

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "sensors/field_of_view.hpp"
 #include "sensors/observation.hpp"
 #include "sensors/position_sensor.hpp"
 
@@ -60,13 +61,8 @@ struct SensorConfig {
 
   template <class Report>
   void check(Report&& report) const {
-    const auto& view = field_of_view;
-    if (view.size() == 1)
-      report("field_of_view", "two corners are needed: [[left, bottom], [right, top]]");
-    if (view.size() == 2 && !(view[0].array() < view[1].array()).all()) {
-      report("field_of_view", "the first corner must lie left of and below the second");
-    }
-    if (clutter > 0.0 && view.empty()) {
+    check_field_of_view(field_of_view, report);
+    if (clutter > 0.0 && field_of_view.empty()) {
       report("clutter", "false detections need a field_of_view to lie in");
     }
   }

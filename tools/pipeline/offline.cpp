@@ -1,7 +1,6 @@
 #include "tools/pipeline/offline.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace ghtrack {
@@ -21,11 +20,8 @@ double median_period(std::span<const Scan> scans) {
 }
 
 SensorTraits traits_of(const OfflineConfig& config, double period) {
-  SensorTraits traits{.period = period, .sigma = config.noise, .field_of_view = std::nullopt};
-  if (config.field_of_view.size() == 2) {
-    traits.field_of_view.emplace(config.field_of_view[0], config.field_of_view[1]);
-  }
-  return traits;
+  return {
+      .period = period, .sigma = config.noise, .field_of_view = box_between(config.field_of_view)};
 }
 
 }  // namespace

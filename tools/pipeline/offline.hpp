@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sensors/detection.hpp"
+#include "sensors/field_of_view.hpp"
 #include "tracker/track.hpp"
 #include "tracker/tracker.hpp"
 #include "tracker/tracker_config.hpp"
@@ -44,13 +45,7 @@ struct OfflineConfig {
 
   template <class Report>
   void check(Report&& report) const {
-    const auto& view = field_of_view;
-    if (view.size() == 1) {
-      report("field_of_view", "two corners are needed: [[left, bottom], [right, top]]");
-    }
-    if (view.size() == 2 && !(view[0].array() < view[1].array()).all()) {
-      report("field_of_view", "the first corner must lie left of and below the second");
-    }
+    check_field_of_view(field_of_view, report);
   }
 };
 
