@@ -3,8 +3,9 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kRestSpeed = 0.01;  // a bounce at this speed is 5 µm high [m/s]
-constexpr double kSlipDecay = 0.02;  // time in which the last slip of a rolling body dies out [s]
+constexpr double kRestSpeed = 0.01;   // slower bounces are not worth it [m/s]
+constexpr double kRestHeight = 5e-6;  // nor are lower ones, under forces far above gravity [m]
+constexpr double kSlipDecay = 0.02;   // time in which the last slip of a rolling body dies out [s]
 
 Vec2 tangent_to(const Vec2& normal) { return {normal.y(), -normal.x()}; }
 
@@ -36,8 +37,8 @@ bool supports(const Surface& surface, const FlightState& state, const FlightRate
   return contact.on_face && free.acceleration.dot(contact.normal) <= 0.0;
 }
 
-void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces,
-            std::size_t surface) {
+void bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
+            const std::vector<Surface>& surfaces, std::size_t surface) {
   const Surface& struck = surfaces[surface];
   const Contact contact = struck.contact(state.position);
   state.position += std::max(0.0, body.radius - contact.distance) * contact.normal;
@@ -56,12 +57,14 @@ void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface
   state.spin += impulse / (body.inertia * body.radius);
 
   const double departure = restitution * approach;
-  if (departure >= kRestSpeed) return;
+  const double pressing = std::max(0.0, -free.acceleration.dot(contact.normal));
+  const double rest_speed = std::max(kRestSpeed, std::sqrt(2.0 * kRestHeight * pressing));
+  if (departure >= rest_speed) return;
   if (contact.on_face) {
     state.velocity = state.velocity.dot(tangent) * tangent;
     state.support = static_cast<int>(surface);
   } else {
-    state.velocity += (kRestSpeed - departure) * contact.normal;  // slides off an end
+    state.velocity += (rest_speed - departure) * contact.normal;  // slides off an end
   }
 }
 

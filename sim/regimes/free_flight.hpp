@@ -45,9 +45,10 @@ bool supports(const Surface& surface, const FlightState& state, const FlightRate
 /// Impact law: restitution along the normal, Coulomb friction along the surface, limited by the
 /// impulse after which the contact point does not slip (Cross 2002):
 ///   v_n' = −e v_n,  J_t = min(μ (1 + e) |v_n|, |v_t| / (1 + 1/β)),  v_t the slip of the rim.
-/// A bounce too slow to be seen makes the surface a support.
-void bounce(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces,
-            std::size_t surface);
+/// A bounce too low to be seen, where `free` forces press the body back, makes the surface a
+/// support.
+void bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
+            const std::vector<Surface>& surfaces, std::size_t surface);
 
 /// What a sensor may see of a body with these rates of free flight.
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
@@ -95,11 +96,21 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
                         const RoundBody& body, const std::vector<Surface>& surfaces);
 
 /// Where `gap` falls to zero between `clear` and `touching`, to about 1e-12: the Illinois variant
-/// of the false position method (Dowell & Jarratt 1971).
-template <class Gap>
-double find_impact(double clear, double touching, const Gap& gap) {
+/// of the false position method (Dowell & Jarratt 1971). A body that still touches at `clear`,
+/// where it has just bounced, and recedes, comes back after the top of its hop.
+template <class Gap, class Recedes>
+double find_impact(double clear, double touching, const Gap& gap, const Recedes& recedes) {
   constexpr double kExact = 1e-12;  // [m] and [s]
   double clear_gap = gap(clear);
+  if (clear_gap < kExact) {
+    if (!recedes(clear)) return clear;
+    double falling = touching;
+    for (const double enough = 1e-3 * (touching - clear); falling - clear > enough;) {
+      const double middle = 0.5 * (clear + falling);
+      (recedes(middle) ? clear : falling) = middle;
+    }
+    clear_gap = gap(clear);
+  }
   double touching_gap = gap(touching);
   if (!(clear_gap > 0.0 && touching_gap < 0.0)) return touching;
   int same_side = 0;  // how often, with its sign, the same end has moved in a row
@@ -148,14 +159,19 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
       return;
     }
     const auto index = static_cast<std::size_t>(approach.surface);
-    const auto gap_after = [&](double part) {
-      const FlightState there = runge_kutta(state, time, part, rates_here);
-      return surfaces[index].contact(there.position).distance - body.radius;
+    const auto after = [&](double part) { return runge_kutta(state, time, part, rates_here); };
+    const auto gap = [&](double part) {
+      return surfaces[index].contact(after(part).position).distance - body.radius;
     };
-    const double touching = find_impact(approach.clear * step, approach.touching * step, gap_after);
-    state = runge_kutta(state, time, touching, rates_here);
-    time += touching;
-    bounce(state, body, surfaces, index);
+    const auto recedes = [&](double part) {
+      const FlightState there = after(part);
+      return there.velocity.dot(surfaces[index].contact(there.position).normal) >= 0.0;
+    };
+    const double impact_time =
+        find_impact(approach.clear * step, approach.touching * step, gap, recedes);
+    state = after(impact_time);
+    time += impact_time;
+    bounce(state, rates(state, time), body, surfaces, index);
   }
 }
 

@@ -143,6 +143,30 @@ TEST(ThrownBall, ComesToRest) {
   EXPECT_EQ(state.acceleration.y(), 0.0);
 }
 
+// Derived: without friction x = v t whatever bounces are on the way; they last for
+// √(2 h / g) (1 + e) / (1 − e). The last ones are shorter than a step: take the moment of departure
+// for the next impact, and one ball in a hundred hangs in the air for ever.
+TEST(ThrownBall, IsNotHeldUpByItsLastBounces) {
+  for (const double rate : {20.0, 30.0}) {
+    for (int i = 0; i < 200; ++i) {
+      const double drop = 0.5 + 0.001 * i;
+      const double e = 0.01 + 0.002 * i;
+      ThrownBall ball = plain_ball(Vec2(0.0, 0.0366 + drop), Vec2(3.0, 0.0));
+      ball.restitution = e;
+      ball.friction = 0.0;
+      WorldConfig config = world_of({target_of(ball)});
+      config.physics.rate = rate;
+      config.environment.ground = Ground{};
+      World world(config, 1);
+      const double bouncing = std::sqrt(2.0 * drop / kStandardGravity) * (1.0 + e) / (1.0 - e);
+      const TruthState state = state_at(world, bouncing + 1.0);
+      ASSERT_NEAR(state.position.x(), 3.0 * (bouncing + 1.0), 1e-9) << rate << ' ' << i;
+      ASSERT_NEAR(state.position.y(), ball.radius, 1e-9) << rate << ' ' << i;
+      ASSERT_EQ(state.velocity.y(), 0.0) << rate << ' ' << i;
+    }
+  }
+}
+
 // Derived: a solid ball (β = 2/5) that slides without spin rolls at 5/7 of its speed, after
 // t = 2 v / (7 μ g).
 TEST(ThrownBall, SlidesUntilItRolls) {
