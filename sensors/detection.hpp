@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "sensors/field_of_view.hpp"
 
 namespace ghtrack {
 
@@ -27,7 +27,7 @@ struct Scan {
 struct SensorTraits {
   double period = 1.0;  // time between scans [s]
   double sigma = 1.0;   // typical 1-sigma position error per axis [m]; filters are designed for it
-  std::optional<Eigen::AlignedBox2d> field_of_view;  // world frame [m]; absent: sees everything
+  FieldOfView field_of_view;  // world frame
 };
 
 }  // namespace ghtrack

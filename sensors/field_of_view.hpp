@@ -2,15 +2,63 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <optional>
+#include <array>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace ghtrack {
 
-/// The rectangle between two corners as a scene writes them, lower left first [m]; absent unless
-/// there are two.
-inline std::optional<Eigen::AlignedBox2d> box_between(const std::vector<Eigen::Vector2d>& corners) {
-  if (corners.size() != 2) return std::nullopt;
+/// Sees everything.
+struct Everywhere {};
+
+/// Sees up to a range, all around or between two bearings.
+struct Sector {
+  Eigen::Vector2d site = Eigen::Vector2d::Zero();   // world frame [m]
+  double max_range = 0.0;                           // [m]
+  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();  // unit vector to its middle
+  double half_width = 3.141592653589793;            // bearings on either side of the axis [rad]
+  double cos_half_width = -1.0;
+
+  bool contains(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d offset = p - site;
+    const double range = offset.norm();
+    return range <= max_range && offset.dot(axis) >= range * cos_half_width;
+  }
+};
+
+/// A convex quadrilateral, such as what a tilted camera sees of a plane.
+struct Quadrilateral {
+  std::array<Eigen::Vector2d, 4> corners;  // counter-clockwise, world frame [m]
+
+  bool contains(const Eigen::Vector2d& p) const {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
+      const Eigen::Vector2d offset = p - corners[i];
+      if (side.x() * offset.y() - side.y() * offset.x() < 0.0) return false;
+    }
+    return true;
+  }
+};
+
+/// Where a sensor sees, world frame.
+using FieldOfView = std::variant<Everywhere, Eigen::AlignedBox2d, Sector, Quadrilateral>;
+
+inline bool contains(const FieldOfView& view, const Eigen::Vector2d& position) {
+  return std::visit(
+      [&](const auto& shape) {
+        if constexpr (std::is_same_v<decltype(shape), const Everywhere&>)
+          return true;
+        else
+          return shape.contains(position);
+      },
+      view);
+}
+
+/// The rectangle between two corners as a scene writes them, lower left first [m]; everywhere
+/// unless there are two.
+inline FieldOfView rectangle_between(const std::vector<Eigen::Vector2d>& corners) {
+  if (corners.size() != 2) return Everywhere{};
   return Eigen::AlignedBox2d(corners[0], corners[1]);
 }
 

@@ -17,6 +17,7 @@ enum class Purpose : std::uint32_t {
   kLabel = 6,
   kOrder = 7,
   kGeneration = 8,
+  kOutlier = 9,
 };
 
 /// A name as a 64-bit key for random streams: FNV-1a.

@@ -61,9 +61,7 @@ void hit(Track& track, const Scan& scan, int detection) {
 
 void miss(Track& track, const SensorTraits& sensor) {
   ++track.unseen;
-  const bool in_view =
-      !sensor.field_of_view || sensor.field_of_view->contains(track.prediction.position);
-  if (!in_view) return;
+  if (!contains(sensor.field_of_view, track.prediction.position)) return;
   coast(track.filter);
   track.history.add_miss();
 }

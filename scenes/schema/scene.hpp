@@ -61,12 +61,18 @@ struct WorldScene {
       report("targets[" + std::to_string(problem.target) + "]", problem.message);
     }
     report_repeated_names(sensors, "sensors", report);
+    const auto check_target = [&](const std::string& key, const std::string& wanted) {
+      if (!has_target(wanted)) report(key, "no target is called '" + wanted + "'");
+    };
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      for (std::size_t j = 0; j < sensors[i].nearest_first.size(); ++j) {
+        check_target("sensors[" + std::to_string(i) + "].nearest_first[" + std::to_string(j) + "]",
+                     sensors[i].nearest_first[j]);
+      }
+    }
     if (!video) return;
     if (video->from >= duration) report("video.from", "must be before the end of the run");
-    const auto check_target = [&](std::string_view key, const std::optional<std::string>& wanted) {
-      if (wanted && !has_target(*wanted)) report(key, "no target is called '" + *wanted + "'");
-    };
-    check_target("video.follow", video->follow);
+    if (video->follow) check_target("video.follow", *video->follow);
   }
 
   /// Is there a target of that name, given by the scene or by name_targets()?

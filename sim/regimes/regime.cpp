@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 #include <utility>
 
 namespace ghtrack {
@@ -33,6 +34,12 @@ std::vector<Beginning> beginnings_of(const std::vector<Target>& targets) {
 
 std::string_view kind_of(const Regime& regime) {
   return std::visit([](const auto& r) { return std::decay_t<decltype(r)>::kind; }, regime);
+}
+
+std::vector<std::string> regime_kinds() {
+  return []<class... R>(std::type_identity<std::variant<R...>>) {
+    return std::vector<std::string>{std::string(R::kind)...};
+  }(std::type_identity<Regime>{});
 }
 
 void name_targets(std::vector<Target>& targets) {

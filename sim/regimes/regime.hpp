@@ -55,6 +55,9 @@ struct Target {
 /// The name of the regime: "train", "ball", "balloon".
 std::string_view kind_of(const Regime& regime);
 
+/// The names of all regimes, in the order of the list.
+std::vector<std::string> regime_kinds();
+
 /// Gives every nameless target a name: "ball 2" for the second ball, or the next free number.
 void name_targets(std::vector<Target>& targets);
 

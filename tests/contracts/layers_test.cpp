@@ -17,10 +17,11 @@ using Folders = std::vector<std::string>;
 /// What each folder may include, beside itself. A file of a longer path obeys the longest match.
 const std::map<std::string, Folders> kAllowed = {
     {"sim", {}},
-    {"tracker", {"sensors/detection.hpp"}},
+    {"tracker", {"sensors/detection.hpp", "sensors/field_of_view.hpp"}},
     {"tracker/filters", {}},
-    {"sensors/detection.hpp", {}},
-    {"sensors", {"sim/truth.hpp", "sim/random.hpp"}},
+    {"sensors/detection.hpp", {"sensors/field_of_view.hpp"}},
+    {"sensors/field_of_view.hpp", {}},
+    {"sensors", {"sim/truth.hpp", "sim/random.hpp", "sim/portable_math.hpp"}},
     {"scenes/schema", {"sim", "sensors", "tracker"}},
     {"tools/record", {"sim/truth.hpp", "sensors", "tracker"}},
     {"tools/metrics", {"tools/record", "sim/truth.hpp", "sensors", "tracker"}},

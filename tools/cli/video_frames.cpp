@@ -4,6 +4,7 @@
 #include <numbers>
 #include <variant>
 
+#include "sensors/view_geometry.hpp"
 #include "sim/regimes/rail_line.hpp"
 #include "sim/regimes/train.hpp"
 #include "tools/pipeline/simulation.hpp"
@@ -49,7 +50,7 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world) {
   for (const Wall& wall : scene.environment.walls) drawing.walls.push_back({wall.from, wall.to});
   for (const SensorConfig& sensor : scene.sensors) {
     drawing.sensors.push_back(
-        {.name = sensor.name, .rate = sensor.rate, .field_of_view = sensor.field_of_view});
+        {.name = sensor.name, .rate = sensor.rate, .field_of_view = outline_of(sensor.view())});
   }
   return drawing;
 }

@@ -20,8 +20,9 @@ double median_period(std::span<const Scan> scans) {
 }
 
 SensorTraits traits_of(const OfflineConfig& config, double period) {
-  return {
-      .period = period, .sigma = config.noise, .field_of_view = box_between(config.field_of_view)};
+  return {.period = period,
+          .sigma = config.noise,
+          .field_of_view = rectangle_between(config.field_of_view)};
 }
 
 }  // namespace

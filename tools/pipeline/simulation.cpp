@@ -60,6 +60,7 @@ World make_world(const WorldScene& scene) {
 
 void run(const WorldScene& scene, World& world, const Listener& listener) {
   const TrackerDesign design(scene.tracker, traits_of(scene.sensors));
+  const Setting setting{.objects = world.objects(), .classes = regime_kinds(), .seed = scene.seed};
   TrackerState tracker;
   std::size_t frame = 0;
   const auto show_frames_before = [&](double time) {
@@ -72,9 +73,8 @@ void run(const WorldScene& scene, World& world, const Listener& listener) {
     show_frames_before(next->time);
     StepRecord record;
     record.truth = world.sample(next->time);
-    record.observation =
-        observe(scene.sensors[static_cast<std::size_t>(next->sensor)], next->sensor, next->scan,
-                record.truth, world.objects(), scene.seed);
+    record.observation = observe(scene.sensors[static_cast<std::size_t>(next->sensor)],
+                                 next->sensor, next->scan, record.truth, setting);
     tracker = step(design, std::move(tracker), record.observation.scan, record.observation.origins);
     record.tracks = snapshot(tracker);
     listener.on_scan(record);
