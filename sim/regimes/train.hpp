@@ -149,7 +149,8 @@ struct Train {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.preset("stock", &Train::stock, Train::presets(),
-             {.meaning = "published data of rolling stock, for the whole train"});
+             {.meaning = "published data of rolling stock, for the whole train; or ideal: without "
+                         "resistance or limits"});
     v.field("position", &Train::position,
             {.unit = "m", .meaning = "of the track's beginning", .minimum = -1e5, .maximum = 1e5});
     v.field("heading_deg", &Train::heading_deg,
