@@ -3,6 +3,7 @@
 #include <box2d/box2d.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ghtrack {
@@ -147,6 +148,17 @@ b2Body* add_body(b2World& world, const CollisionBody& body, const Frame& frame, 
   return created;
 }
 
+/// The part of a wall within twice this reach of a point: far ends do not fit single precision.
+std::array<Vec2, 2> near_part(const Surface& wall, const Vec2& point, double reach) {
+  const Vec2 along = wall.to - wall.from;
+  const double length = along.norm();
+  const double nearest = (point - wall.from).dot(along) / length;
+  const auto at = [&](double place) {
+    return Vec2(wall.from + std::clamp(place / length, 0.0, 1.0) * along);
+  };
+  return {at(nearest - 2.0 * reach), at(nearest + 2.0 * reach)};
+}
+
 void add_surface(b2World& world, const Surface& surface, const Frame& frame, double reach,
                  std::size_t index) {
   b2BodyDef definition;
@@ -157,7 +169,8 @@ void add_surface(b2World& world, const Surface& surface, const Frame& frame, dou
     edge.SetTwoSided(frame.vector(below - Vec2(reach, 0.0)),
                      frame.vector(below + Vec2(reach, 0.0)));
   } else {
-    edge.SetTwoSided(frame.point(surface.from), frame.point(surface.to));
+    const auto [from, to] = near_part(surface, frame.origin, reach);
+    edge.SetTwoSided(frame.point(from), frame.point(to));
   }
   b2FixtureDef fixture;
   fixture.userData.pointer = index;

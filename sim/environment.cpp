@@ -6,8 +6,9 @@ Environment::Environment(const EnvironmentConfig& config, std::uint64_t seed)
     : gravity_(0.0, -config.gravity),
       air_(config.air),
       wind_(config.wind, config.ground ? config.ground->height : 0.0, seed) {
-  if (config.ground) surfaces_.emplace_back(*config.ground);
-  for (const Wall& wall : config.walls) surfaces_.emplace_back(wall);
+  if (config.ground) append_surfaces(*config.ground, surfaces_);
+  for (const Wall& wall : config.walls) append_surfaces(wall, surfaces_);
+  for (const SolidBox& box : config.boxes) append_surfaces(box, surfaces_);
 }
 
 }  // namespace ghtrack

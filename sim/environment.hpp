@@ -39,6 +39,7 @@ struct EnvironmentConfig {
   WindConfig wind;
   std::optional<Ground> ground;
   std::vector<Wall> walls;
+  std::vector<SolidBox> boxes;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -49,9 +50,10 @@ struct EnvironmentConfig {
              .maximum = 100.0});
     v.field("air", &EnvironmentConfig::air, {.meaning = "properties of the air"});
     v.field("wind", &EnvironmentConfig::wind, {.meaning = "motion of the air"});
-    v.field("ground", &EnvironmentConfig::ground, {.meaning = "level ground; left out: none"});
+    v.field("ground", &EnvironmentConfig::ground, {.meaning = "what is below; left out: nothing"});
     v.field("walls", &EnvironmentConfig::walls,
             {.meaning = "walls, ramps and platforms", .max_items = 1000});
+    v.field("boxes", &EnvironmentConfig::boxes, {.meaning = "blocks", .max_items = 250});
   }
 };
 

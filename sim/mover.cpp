@@ -1,6 +1,7 @@
 #include "sim/mover.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/random.hpp"
 
@@ -40,6 +41,20 @@ void Mover::advance(State& state, const Environment& environment, double from, d
           state = StateOf<Model>{model.start(environment, begin)};
         }
         model.advance(std::get<StateOf<Model>>(state).state, environment, begin, to);
+      },
+      model_);
+}
+
+void Mover::release(State& state, const Environment& environment, const PlanarMotion& carrier,
+                    double time) const {
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        typename Model::State started = model.start(environment, time);
+        RigidBody body = model.body(started, 0);
+        body.position += carrier.position;
+        body.velocity += carrier.velocity;
+        model.adopt(started, body);
+        state = StateOf<Model>{std::move(started)};
       },
       model_);
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/environment.hpp"
-#include "sim/regimes/regime.hpp"
+#include "sim/target.hpp"
 
 namespace ghtrack {
 
@@ -32,11 +32,16 @@ class Mover {
 
   std::uint64_t key() const { return key_; }
   const ContactProperties& contact() const { return contact_; }
+  double appears() const { return appears_; }
   int objects() const;
   int bodies() const;
 
   /// Whether the target is there at this time.
   bool present(double time) const { return time >= appears_ && time < disappears_; }
+
+  /// Starts the target at a time, let go by a carrier that moves like this then.
+  void release(State& state, const Environment& environment, const PlanarMotion& carrier,
+               double time) const;
 
   /// Integrates over [from, to] as far as the target is there; starts it if it appears.
   void advance(State& state, const Environment& environment, double from, double to) const;

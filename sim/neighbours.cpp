@@ -28,8 +28,8 @@ class Sets {
 };
 
 bool may_meet(const SweptBox& a, const SweptBox& b) {
-  return (a.yields || b.yields) && a.owner != b.owner && a.low.y() <= b.high.y() &&
-         b.low.y() <= a.high.y();
+  return (a.yields || b.yields) && a.owner != b.owner && a.carrier != b.owner &&
+         b.carrier != a.owner && a.low.y() <= b.high.y() && b.low.y() <= a.high.y();
 }
 
 }  // namespace

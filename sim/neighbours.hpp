@@ -13,6 +13,7 @@ struct SweptBox {
   Vec2 high = Vec2::Zero();  // [m]
   bool yields = true;        // whether the body gives way when it is hit
   int owner = 0;             // bodies of one owner do not meet
+  int carrier = -1;          // nor do a body and the owner that let go of it
 };
 
 /// Bodies that may touch each other during a step, as indices into the boxes.

@@ -1,34 +1,99 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/truth.hpp"
 
 namespace ghtrack {
 
-/// The level ground of a side view.
+/// What is known of a bounce on a material, whatever hits it.
+struct Material {
+  std::string_view name;
+  std::optional<double> restitution;  // hard materials: that of the ball, which is measured on them
+  std::optional<double> friction = std::nullopt;
+};
+
+/// The materials that a scene can name; the first says nothing.
+std::span<const Material> materials();
+
+/// Those materials as presets of a surface.
+template <class SurfaceConfig>
+std::span<const SurfaceConfig> surfaces_of_all_materials() {
+  static const std::vector<SurfaceConfig> rows = [] {
+    std::vector<SurfaceConfig> surfaces;
+    for (const Material& material : materials()) {
+      SurfaceConfig& surface = surfaces.emplace_back();
+      surface.material = material.name;
+      surface.restitution = material.restitution;
+      surface.friction = material.friction;
+    }
+    return surfaces;
+  }();
+  return rows;
+}
+
+/// The keys that ground, walls and boxes share.
+template <class SurfaceConfig, class Visitor>
+void describe_material(Visitor& v) {
+  v.preset("material", &SurfaceConfig::material, surfaces_of_all_materials<SurfaceConfig>(),
+           {.meaning = "what it is made of"});
+  v.field("restitution", &SurfaceConfig::restitution,
+          {.unit = "1",
+           .meaning = "speed ratio of a bounce on it; left out: each ball's own",
+           .minimum = 0.0,
+           .maximum = 1.0});
+  v.field("friction", &SurfaceConfig::friction,
+          {.unit = "1",
+           .meaning = "coefficient of sliding friction on it; left out: each ball's own",
+           .minimum = 0.0,
+           .maximum = 10.0});
+}
+
+/// The ground of a side view: level, or a profile of straight slopes.
 struct Ground {
-  static constexpr std::string_view about = "level ground on which balls and balloons bounce";
+  static constexpr std::string_view about =
+      "ground on which balls and balloons bounce: level, or with a profile";
 
   double height = 0.0;
-  std::optional<double> restitution;
-  std::optional<double> friction;
+  std::optional<double> restitution = std::nullopt;
+  std::optional<double> friction = std::nullopt;
+  std::string material = "plain";
+  std::vector<Vec2> profile = {};
+
+  /// y of the ground below or above a point [m].
+  double height_at(double x) const;
 
   template <class Visitor>
   static void describe(Visitor& v) {
+    describe_material<Ground>(v);
     v.field("height", &Ground::height,
-            {.unit = "m", .meaning = "y of the ground", .minimum = -1e5, .maximum = 1e5});
-    v.field("restitution", &Ground::restitution,
-            {.unit = "1",
-             .meaning = "speed ratio of a bounce on it; left out: each ball's own",
-             .minimum = 0.0,
-             .maximum = 1.0});
-    v.field("friction", &Ground::friction,
-            {.unit = "1",
-             .meaning = "coefficient of sliding friction on it; left out: each ball's own",
-             .minimum = 0.0,
-             .maximum = 10.0});
+            {.unit = "m",
+             .meaning = "y of level ground, from which wind shear is measured",
+             .minimum = -1e5,
+             .maximum = 1e5});
+    v.field("profile", &Ground::profile,
+            {.unit = "m",
+             .meaning = "points from left to right, joined by slopes; level beyond both ends. "
+                        "Without it the ground is level",
+             .minimum = -1e5,
+             .maximum = 1e5,
+             .max_items = 1000});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (profile.size() == 1) report("profile", "a profile needs at least two points");
+    for (std::size_t i = 1; i < profile.size(); ++i) {
+      if (profile[i].x() >= profile[i - 1].x() + 0.01) continue;
+      report("profile", "each point must lie to the right of the one before, by 0.01 m at least");
+      break;
+    }
   }
 };
 
@@ -39,31 +104,55 @@ struct Wall {
 
   Vec2 from = Vec2::Zero();
   Vec2 to = Vec2::Zero();
-  std::optional<double> restitution;
-  std::optional<double> friction;
+  std::optional<double> restitution = std::nullopt;
+  std::optional<double> friction = std::nullopt;
+  std::string material = "plain";
 
   template <class Visitor>
   static void describe(Visitor& v) {
+    describe_material<Wall>(v);
     v.field("from", &Wall::from,
             {.unit = "m", .meaning = "one end", .required = true, .minimum = -1e5, .maximum = 1e5});
     v.field(
         "to", &Wall::to,
         {.unit = "m", .meaning = "other end", .required = true, .minimum = -1e5, .maximum = 1e5});
-    v.field("restitution", &Wall::restitution,
-            {.unit = "1",
-             .meaning = "speed ratio of a bounce off it; left out: each ball's own",
-             .minimum = 0.0,
-             .maximum = 1.0});
-    v.field("friction", &Wall::friction,
-            {.unit = "1",
-             .meaning = "coefficient of sliding friction on it; left out: each ball's own",
-             .minimum = 0.0,
-             .maximum = 10.0});
   }
 
   template <class Report>
   void check(Report&& report) const {
     if ((to - from).norm() < 0.01) report("to", "a wall must be at least 0.01 m long");
+  }
+};
+
+/// A rectangular block that stands still.
+struct SolidBox {
+  static constexpr std::string_view about = "a rectangular block that stands still";
+
+  Vec2 center = Vec2::Zero();
+  Vec2 size = Vec2::Ones();
+  double angle_deg = 0.0;
+  std::optional<double> restitution = std::nullopt;
+  std::optional<double> friction = std::nullopt;
+  std::string material = "plain";
+
+  /// Counter-clockwise, beginning at the lower left of the unturned box [m].
+  std::array<Vec2, 4> corners() const;
+
+  bool contains(const Vec2& point) const;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    describe_material<SolidBox>(v);
+    v.field("center", &SolidBox::center,
+            {.unit = "m",
+             .meaning = "of the box",
+             .required = true,
+             .minimum = -1e5,
+             .maximum = 1e5});
+    v.field("size", &SolidBox::size,
+            {.unit = "m", .meaning = "width and height", .minimum = 0.01, .maximum = 1e4});
+    v.field("angle_deg", &SolidBox::angle_deg,
+            {.unit = "deg", .meaning = "by which it is turned", .minimum = -360.0, .maximum = 360.0});
   }
 };
 
@@ -80,13 +169,15 @@ struct Surface {
   Shape shape = Shape::kGround;
   Vec2 from = Vec2::Zero();  // ground: any point of it
   Vec2 to = Vec2::Zero();
-  std::optional<double> restitution;
-  std::optional<double> friction;
-
-  explicit Surface(const Ground& ground);
-  explicit Surface(const Wall& wall);
+  std::optional<double> restitution = std::nullopt;
+  std::optional<double> friction = std::nullopt;
 
   Contact contact(const Vec2& point) const;
 };
+
+/// What each of these is made of.
+void append_surfaces(const Ground& ground, std::vector<Surface>& surfaces);
+void append_surfaces(const Wall& wall, std::vector<Surface>& surfaces);
+void append_surfaces(const SolidBox& box, std::vector<Surface>& surfaces);
 
 }  // namespace ghtrack

@@ -14,9 +14,9 @@ using ObjectId = int;
 
 /// What an object looks like, for pictures and for occlusion. Sizes in metres.
 struct Outline {
-  enum class Shape { kBox, kDisc, kBalloon };
+  enum class Shape { kBox, kDisc, kBalloon, kDrone };
   Shape shape = Shape::kDisc;
-  double length = 0.0;  // box: along its heading; disc, balloon: diameter
+  double length = 0.0;  // box: along its heading; otherwise the diameter
   double width = 0.0;   // box: across its heading
 };
 
@@ -24,7 +24,7 @@ struct Outline {
 struct ObjectInfo {
   ObjectId id = 0;
   std::string name;       // unique in the scene
-  std::string regime;     // the kind of motion: "train", "ball", "balloon"
+  std::string regime;     // the kind of motion: "train", "ball", "balloon", "drone"
   std::string label;      // the class that a perfect detector reports
   std::uint64_t key = 0;  // names the object's random streams; depends on its name alone
   Outline outline;        // of each of its rigid parts

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "sim/collision.hpp"
@@ -17,14 +20,14 @@ constexpr double kMargin = 0.02;   // around swept boxes [m]
 constexpr double kInstant = 1e-9;  // two instants closer than this are one [s]
 
 SweptBox swept_box(const ContactProperties& contact, const RigidBody& before,
-                   const RigidBody& after, int owner) {
+                   const RigidBody& after) {
   const Vec2 margin =
       Vec2::Constant(kMargin + 0.5 * std::hypot(contact.outline.length,
                                                 contact.outline.shape == Outline::Shape::kBox
                                                     ? contact.outline.width
                                                     : 0.0));
   return {before.position.cwiseMin(after.position) - margin,
-          before.position.cwiseMax(after.position) + margin, contact.mass > 0.0, owner};
+          before.position.cwiseMax(after.position) + margin, contact.mass > 0.0};
 }
 
 }  // namespace
@@ -34,11 +37,14 @@ struct World::Scenery {
   Environment environment;
   double rate;
   std::vector<Mover> movers;
+  std::vector<std::optional<std::size_t>> carriers;  // who lets go of it when it appears
   std::vector<Mover::State> states;
   std::int64_t step = 0;  // the states hold at step / rate
   double last_sample = 0.0;
   std::int64_t missed_collisions = 0;
 
+  Mover::State alone(const std::vector<Mover::State>& before, std::size_t target, double from,
+                     double to) const;
   /// @returns how many collisions were missed
   int advance(std::vector<Mover::State>& moved, double from, double to) const;
   int settle_contacts(const std::vector<Mover::State>& before, std::vector<Mover::State>& after,
@@ -46,10 +52,31 @@ struct World::Scenery {
   TruthSnapshot snapshot(const std::vector<Mover::State>& at, double time) const;
 };
 
+/// Where a target gets to if it meets no other.
+Mover::State World::Scenery::alone(const std::vector<Mover::State>& before, std::size_t target,
+                                   double from, double to) const {
+  const Mover& mover = movers[target];
+  Mover::State state = before[target];
+  double begin = from;
+  if (carriers[target] && std::holds_alternative<std::monostate>(state) && mover.appears() <= to) {
+    begin = std::max(from, mover.appears());
+    const std::size_t carrier = *carriers[target];
+    const Mover::State then = alone(before, carrier, from, begin);
+    mover.release(state, environment, movers[carrier].kinematics(then, environment, begin, 0),
+                  begin);
+  }
+  mover.advance(state, environment, begin, to);
+  return state;
+}
+
 int World::Scenery::advance(std::vector<Mover::State>& moved, double from, double to) const {
   const std::vector<Mover::State> before = moved;
   for (std::size_t i = 0; i < movers.size(); ++i) {
-    movers[i].advance(moved[i], environment, from, to);
+    if (carriers[i]) {
+      moved[i] = alone(before, i, from, to);
+    } else {
+      movers[i].advance(moved[i], environment, from, to);
+    }
   }
   return settle_contacts(before, moved, from, to);
 }
@@ -66,8 +93,10 @@ int World::Scenery::settle_contacts(const std::vector<Mover::State>& before,
     any_yields = any_yields || contact.mass > 0.0;
     for (int part = 0; part < movers[i].bodies(); ++part) {
       bodies.push_back({contact, movers[i].body(before[i], part), movers[i].body(after[i], part)});
-      boxes.push_back(
-          swept_box(contact, bodies.back().before, bodies.back().after, static_cast<int>(i)));
+      SweptBox& box =
+          boxes.emplace_back(swept_box(contact, bodies.back().before, bodies.back().after));
+      box.owner = static_cast<int>(i);
+      if (carriers[i]) box.carrier = static_cast<int>(*carriers[i]);
     }
   }
   if (!any_yields || boxes.size() < 2) return 0;
@@ -125,18 +154,20 @@ TruthSnapshot World::Scenery::snapshot(const std::vector<Mover::State>& at, doub
 
 World::World(const WorldConfig& config, std::uint64_t seed)
     : scenery_(std::make_unique<Scenery>(
-          Scenery{Environment(config.environment, seed), config.physics.rate, {}, {}})) {
-  std::vector<Target> targets = config.targets;
-  name_targets(targets);
-  const std::vector<TargetProblem> problems = find_problems(targets);
+          Scenery{Environment(config.environment, seed), config.physics.rate, {}, {}, {}})) {
+  const std::vector<TargetProblem> problems = find_problems(config.targets, config.environment);
   if (!problems.empty()) {
     throw std::invalid_argument("targets[" + std::to_string(problems.front().target) +
                                 "]: " + problems.front().message);
   }
+  const std::vector<Target> targets = spell_out(config.targets);
+  std::map<std::string_view, std::size_t> indices;
+  for (std::size_t i = 0; i < targets.size(); ++i) indices.emplace(targets[i].name, i);
+  scenery_->states.resize(targets.size());
   for (const Target& target : targets) {
     const Mover& mover = scenery_->movers.emplace_back(target);
-    scenery_->states.emplace_back();
-    mover.advance(scenery_->states.back(), scenery_->environment, 0.0, 0.0);
+    std::optional<std::size_t>& carrier = scenery_->carriers.emplace_back();
+    if (target.released_by) carrier = indices.at(*target.released_by);
     for (int part = 0; part < mover.objects(); ++part) {
       const std::string name =
           part == 0 ? target.name : target.name + " car " + std::to_string(part + 1);
@@ -145,6 +176,7 @@ World::World(const WorldConfig& config, std::uint64_t seed)
                           mover.contact().outline});
     }
   }
+  scenery_->advance(scenery_->states, 0.0, 0.0);
 }
 
 World::World(World&&) noexcept = default;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/environment.hpp"
-#include "sim/regimes/regime.hpp"
+#include "sim/target.hpp"
 #include "sim/truth.hpp"
 
 namespace ghtrack {
@@ -39,7 +39,7 @@ struct WorldConfig {
 /// sampled, nor on targets elsewhere.
 class World {
  public:
-  /// Nameless targets get names.
+  /// Blocks of copies are spelled out, nameless targets get names.
   /// @throws std::invalid_argument if the targets have problems
   World(const WorldConfig& config, std::uint64_t seed);
   World(World&&) noexcept;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,7 +14,7 @@
 #include "scenes/schema/video_config.hpp"
 #include "sensors/sensor.hpp"
 #include "sim/environment.hpp"
-#include "sim/regimes/regime.hpp"
+#include "sim/target.hpp"
 #include "sim/world.hpp"
 #include "tracker/tracker_config.hpp"
 
@@ -57,7 +58,7 @@ struct WorldScene {
   template <class Report>
   void check(Report&& report) const {
     if (const auto flaw = flaw_of_name(name); !flaw.empty()) report("name", flaw);
-    for (const TargetProblem& problem : find_problems(targets)) {
+    for (const TargetProblem& problem : find_problems(targets, environment)) {
       report("targets[" + std::to_string(problem.target) + "]", problem.message);
     }
     report_repeated_names(sensors, "sensors", report);
@@ -75,14 +76,11 @@ struct WorldScene {
     if (video->follow) check_target("video.follow", *video->follow);
   }
 
-  /// Is there a target of that name, given by the scene or by name_targets()?
+  /// Is there a target of that name, once copies are spelled out and everyone is named?
   bool has_target(std::string_view target) const {
-    std::vector<Target> named = targets;
-    name_targets(named);
-    for (const Target& candidate : named) {
-      if (candidate.name == target) return true;
-    }
-    return false;
+    const std::vector<Target> all = spell_out(targets);
+    return std::any_of(all.begin(), all.end(),
+                       [target](const Target& one) { return one.name == target; });
   }
 };
 

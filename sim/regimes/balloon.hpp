@@ -36,6 +36,9 @@ struct Balloon {
 
   static std::span<const Balloon> presets();
 
+  void shift(const Vec2& by) { position += by; }
+  void hasten(const Vec2& by) { velocity += by; }
+
   template <class Visitor>
   static void describe(Visitor& v) {
     v.preset("type", &Balloon::type, Balloon::presets(),

@@ -60,19 +60,20 @@ void adopt_flight(FlightState& state, const RigidBody& body);
 /// One Runge–Kutta step of fourth order. Rates: FlightRate(const FlightState&, double time).
 template <class Rates>
 FlightState runge_kutta(const FlightState& state, double time, double step, const Rates& rates) {
-  const auto moved = [&state](const Vec2& velocity, const FlightRate& rate, double h) {
+  const auto moved = [&state](const FlightState& there, const FlightRate& rate, double h) {
     FlightState next = state;
-    next.position += h * velocity;
+    next.position += h * there.velocity;
     next.velocity += h * rate.acceleration;
+    next.angle += h * there.spin;
     next.spin += h * rate.spin;
     return next;
   };
   const FlightRate k1 = rates(state, time);
-  const FlightState s2 = moved(state.velocity, k1, step / 2.0);
+  const FlightState s2 = moved(state, k1, step / 2.0);
   const FlightRate k2 = rates(s2, time + step / 2.0);
-  const FlightState s3 = moved(s2.velocity, k2, step / 2.0);
+  const FlightState s3 = moved(s2, k2, step / 2.0);
   const FlightRate k3 = rates(s3, time + step / 2.0);
-  const FlightState s4 = moved(s3.velocity, k3, step);
+  const FlightState s4 = moved(s3, k3, step);
   const FlightRate k4 = rates(s4, time + step);
 
   FlightState next = state;

@@ -56,10 +56,16 @@ concept IsMotionModel = std::copyable<typename M::State> &&
 };
 
 /// What a regime of motion must be: a described configuration with a name and a model.
+///   position       where it begins [m]
+///   shift(by)      moves it and all that it will do to another place
+///   hasten(by)     changes the velocity with which it begins [m/s]
 template <class R>
 concept IsRegime = IsMotionModel<typename R::Model> &&
-    std::constructible_from<typename R::Model, const R&> && requires {
+    std::constructible_from<typename R::Model, const R&> && requires(R regime, const Vec2& by) {
   { R::kind } -> std::convertible_to<std::string_view>;
+  { regime.position } -> std::convertible_to<Vec2>;
+  regime.shift(by);
+  regime.hasten(by);
 };
 
 }  // namespace ghtrack

@@ -61,22 +61,42 @@ std::span<const ThrownBall> ThrownBall::presets() {
   return rows;
 }
 
+Vec2 ThrownBall::initial_velocity() const {
+  if (!speed) return velocity.value_or(Vec2::Zero());
+  const portable::SinCos direction = portable::sin_cos_of_turns(angle_deg.value_or(0.0) / 360.0);
+  return *speed * Vec2(direction.cos, direction.sin);
+}
+
+void ThrownBall::shift(const Vec2& by) {
+  position += by;
+  if (juggle) juggle->to += by;
+}
+
+void ThrownBall::hasten(const Vec2& by) {
+  if (juggle) return;
+  velocity = initial_velocity() + by;
+  speed.reset();
+  angle_deg.reset();
+}
+
 BallModel::BallModel(const ThrownBall& ball)
     : ball_(ball),
       round_{ball.radius, ball.inertia, ball.restitution, ball.friction},
-      area_to_mass_(portable::kPi * ball.radius * ball.radius / (2.0 * ball.mass)) {
-  initial_.position = ball.position;
-  if (ball.velocity) initial_.velocity = *ball.velocity;
-  if (ball.speed) {
-    const portable::SinCos direction =
-        portable::sin_cos_of_turns(ball.angle_deg.value_or(0.0) / 360.0);
-    initial_.velocity = *ball.speed * Vec2(direction.cos, direction.sin);
-  }
-  if (ball.spin) initial_.spin = *ball.spin;
-  if (ball.spin_rpm) initial_.spin = *ball.spin_rpm * 2.0 * portable::kPi / 60.0;
-}
+      spin_(ball.spin_rpm ? *ball.spin_rpm * 2.0 * portable::kPi / 60.0 : ball.spin.value_or(0.0)),
+      area_to_mass_(portable::kPi * ball.radius * ball.radius / (2.0 * ball.mass)) {}
 
-BallModel::State BallModel::start(const Environment&, double) const { return initial_; }
+BallModel::State BallModel::start(const Environment& environment, double time) const {
+  State state;
+  state.thrown = time;
+  state.flight.position = ball_.position;
+  state.flight.velocity = ball_.initial_velocity();
+  state.flight.spin = spin_;
+  if (ball_.juggle) {
+    const JugglingPattern pattern(*ball_.juggle, ball_.position, environment.gravity(), time);
+    state.flight.velocity = pattern.throw_at(0).velocity;
+  }
+  return state;
+}
 
 double BallModel::drag_coefficient(const Air& air, double speed) const {
   if (!ball_.drag_crisis) return ball_.drag;
@@ -114,8 +134,8 @@ double BallModel::stiffness(const FlightState& state, const Environment& environ
   return rate;
 }
 
-void BallModel::advance(State& state, const Environment& environment, double from,
-                        double to) const {
+void BallModel::fly_freely(FlightState& state, const Environment& environment, double from,
+                           double to) const {
   environment.wind().over_smooth_parts(from, to, [&](double begin, double end) {
     fly_stiffly(
         state, begin, end, round_, environment.surfaces(),
@@ -128,13 +148,53 @@ void BallModel::advance(State& state, const Environment& environment, double fro
   });
 }
 
+void BallModel::advance(State& state, const Environment& environment, double from,
+                        double to) const {
+  if (!ball_.juggle) return fly_freely(state.flight, environment, from, to);
+  const JugglingPattern pattern(*ball_.juggle, ball_.position, environment.gravity(), state.thrown);
+  while (from < to) {
+    const double phase_ends = pattern.end_of(state.phase);
+    const double end = std::min(to, phase_ends);
+    if (state.carry) {
+      const PlanarMotion held = state.carry->at(end);
+      state.flight.position = held.position;
+      state.flight.velocity = held.velocity;
+    } else {
+      fly_freely(state.flight, environment, from, end);
+    }
+    if (end == phase_ends) begin_next_phase(state, pattern);
+    from = end;
+  }
+}
+
+void BallModel::begin_next_phase(State& state, const JugglingPattern& pattern) const {
+  ++state.phase;
+  if (JugglingPattern::is_flight(state.phase)) {
+    const PlanarMotion thrown = pattern.throw_at(state.phase);
+    state.carry.reset();
+    state.flight.position = thrown.position;
+    state.flight.velocity = thrown.velocity;
+    state.flight.spin = spin_;
+    return;
+  }
+  state.flight.spin = 0.0;
+  state.flight.support = -1;
+  state.carry = Carry{.begin = pattern.end_of(state.phase - 1),
+                      .end = pattern.end_of(state.phase),
+                      .caught = {state.flight.position, state.flight.velocity},
+                      .thrown = pattern.throw_at(state.phase + 1)};
+}
+
 PlanarMotion BallModel::kinematics(const State& state, const Environment& environment, double time,
                                    int) const {
-  return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
+  if (state.carry) return state.carry->at(time);
+  return flight_kinematics(state.flight, rate(state.flight, environment, time), round_,
+                           environment.surfaces());
 }
 
 RigidBody BallModel::body(const State& state, int) const {
-  return {state.position, state.velocity, state.angle, state.spin};
+  const FlightState& flight = state.flight;
+  return {flight.position, flight.velocity, flight.angle, flight.spin};
 }
 
 ContactProperties BallModel::contact() const {
@@ -145,6 +205,8 @@ ContactProperties BallModel::contact() const {
           ball_.friction};
 }
 
-void BallModel::adopt(State& state, const RigidBody& body) const { adopt_flight(state, body); }
+void BallModel::adopt(State& state, const RigidBody& body) const {
+  if (!state.carry) adopt_flight(state.flight, body);  // a hand does not give way
+}
 
 }  // namespace ghtrack

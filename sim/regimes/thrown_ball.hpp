@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/regimes/free_flight.hpp"
+#include "sim/regimes/juggling.hpp"
 #include "sim/regimes/motion.hpp"
 
 namespace ghtrack {
@@ -80,8 +81,15 @@ struct ThrownBall {
   double inertia = 0.4;
   double restitution = 0.55;
   double friction = 0.4;
+  std::optional<Juggling> juggle;
 
   static std::span<const ThrownBall> presets();
+
+  /// With which it is thrown, unless it is juggled [m/s].
+  Vec2 initial_velocity() const;
+
+  void shift(const Vec2& by);
+  void hasten(const Vec2& by);
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -150,12 +158,17 @@ struct ThrownBall {
              .meaning = "coefficient of sliding friction where the surface names none",
              .minimum = 0.0,
              .maximum = 10.0});
+    v.field("juggle", &ThrownBall::juggle,
+            {.meaning = "the hands of a juggler, instead of a velocity; left out: thrown once"});
   }
 
   template <class Report>
   void check(Report&& report) const {
     if (velocity && (speed || angle_deg)) {
       report("velocity", "give either velocity or speed and angle_deg, not both");
+    }
+    if (juggle && (velocity || speed)) {
+      report("juggle", "the hands give the velocity: leave out velocity and speed");
     }
     if (angle_deg && !speed) report("angle_deg", "an angle needs a speed");
     if (spin_decay > 0.0 && spin_decay < 0.1) report("spin_decay", "must be 0 or at least 0.1 s");
@@ -169,7 +182,12 @@ struct ThrownBall {
 /// The equations of motion of one ball.
 class BallModel {
  public:
-  using State = FlightState;
+  struct State {
+    FlightState flight;
+    double thrown = 0.0;         // when the first time [s]
+    int phase = 0;               // of juggling
+    std::optional<Carry> carry;  // while a hand holds it
+  };
 
   explicit BallModel(const ThrownBall& ball);
 
@@ -184,6 +202,8 @@ class BallModel {
   void adopt(State& state, const RigidBody& body) const;
 
  private:
+  void fly_freely(FlightState& state, const Environment& environment, double from, double to) const;
+  void begin_next_phase(State& state, const JugglingPattern& pattern) const;
   FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
   double drag_coefficient(const Air& air, double speed) const;
   /// Rate at which forces and spin change with the motion through the air [1/s].
@@ -191,7 +211,7 @@ class BallModel {
 
   ThrownBall ball_;
   RoundBody round_;
-  FlightState initial_;
+  double spin_;  // with which it is thrown [rad/s]
   double area_to_mass_;  // π r² / 2m [m²/kg]
 };
 

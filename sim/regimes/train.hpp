@@ -146,6 +146,9 @@ struct Train {
 
   static std::span<const Train> presets();
 
+  void shift(const Vec2& by) { position += by; }
+  void hasten(const Vec2& by) { speed += by.x(); }
+
   template <class Visitor>
   static void describe(Visitor& v) {
     v.preset("stock", &Train::stock, Train::presets(),

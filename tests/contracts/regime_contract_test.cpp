@@ -68,6 +68,7 @@ template <class R>
 R moving() {
   R regime;
   if constexpr (requires { regime.speed = 12.0; }) regime.speed = 12.0;
+  if constexpr (requires { regime.plan; }) regime.plan = {{0.0, KeepVelocity{Vec2(5.0, 2.0)}}};
   return regime;
 }
 
@@ -101,6 +102,27 @@ TYPED_TEST(RegimeContract, ReportsConsistentDerivatives) {
     const TruthState after = world.sample(time + kHalf).objects.at(0);
     EXPECT_LT(((after.position - before.position) / (2.0 * kHalf) - now.velocity).norm(), 1e-3);
     EXPECT_LT(((after.velocity - before.velocity) / (2.0 * kHalf) - now.acceleration).norm(), 1e-2);
+  }
+}
+
+// Property: what is shifted moves as it would elsewhere; what is hastened begins with another
+// velocity.
+TYPED_TEST(RegimeContract, CanBeShiftedAndHastened) {
+  const TypeParam regime = moving<TypeParam>();
+  const Vec2 by(30.0, 20.0);
+  TypeParam shifted = regime;
+  shifted.shift(by);
+  TypeParam hastened = regime;
+  hastened.hasten(Vec2(2.0, 0.0));
+  World here(world_of(regime), 1);
+  World there(world_of(shifted), 1);
+  World faster(world_of(hastened), 1);
+  const TruthState begin = here.sample(0.0).objects.at(0);
+  EXPECT_NEAR((faster.sample(0.0).objects.at(0).velocity - begin.velocity).norm(), 2.0, 1e-12);
+  for (const double time : {0.0, 1.0, 3.0}) {
+    const Vec2 apart =
+        there.sample(time).objects.at(0).position - here.sample(time).objects.at(0).position;
+    EXPECT_LT((apart - by).norm(), 1e-9);
   }
 }
 

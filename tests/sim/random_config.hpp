@@ -92,6 +92,7 @@ class RandomConfig {
 
   void fill(double& value, const schema::FieldInfo& info) { value = number(info); }
   void fill(int& value, const schema::FieldInfo& info) { value = static_cast<int>(number(info)); }
+  void fill(std::uint64_t& value, const schema::FieldInfo&) { value = stream_.bits(); }
   void fill(bool& value, const schema::FieldInfo&) { value = stream_.uniform() < 0.5; }
   void fill(std::string& value, const schema::FieldInfo&) { value.clear(); }
   void fill(Vec2& value, const schema::FieldInfo& info) {

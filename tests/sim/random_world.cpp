@@ -21,13 +21,20 @@ WorldConfig random_world(std::uint64_t seed) {
     target.name.clear();
     target.appears = std::fmod(target.appears, 0.3);
     target.disappears.reset();
+    target.released_by.reset();
+    if (!config.targets.empty() && stream.uniform() < 0.2) {
+      target.released_by = spell_out(config.targets).front().name;
+    }
+    if (target.grid) target.grid->columns = target.grid->rows = 2;
+    if (target.random) target.random->count = std::min(target.random->count, 3);
+    if (target.repeat) target.repeat->count = std::min(target.repeat->count, 2);
     if (crowded) {
       const double x = stream.uniform();
       const double y = stream.uniform();
       std::visit([&](auto& motion) { motion.position = Vec2(3.0 * x, 3.0 * y); }, target.motion);
     }
     config.targets.push_back(target);
-    if (!find_problems(config.targets).empty()) config.targets.pop_back();
+    if (!find_problems(config.targets, config.environment).empty()) config.targets.pop_back();
   }
   return config;
 }

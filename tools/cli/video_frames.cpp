@@ -46,8 +46,9 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world) {
   } else {
     drawing.world = render::bounding_rectangle(places_visited(scene));
   }
-  if (scene.environment.ground) drawing.ground_height = scene.environment.ground->height;
-  for (const Wall& wall : scene.environment.walls) drawing.walls.push_back({wall.from, wall.to});
+  drawing.ground = scene.environment.ground;
+  drawing.walls = scene.environment.walls;
+  drawing.boxes = scene.environment.boxes;
   for (const SensorConfig& sensor : scene.sensors) {
     drawing.sensors.push_back(
         {.name = sensor.name, .rate = sensor.rate, .field_of_view = outline_of(sensor.view())});

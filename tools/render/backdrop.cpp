@@ -1,5 +1,7 @@
 #include "tools/render/backdrop.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tools/render/ticks.hpp"
@@ -24,14 +26,15 @@ class Backdrop {
         world_(view.world()),
         step_(round_step(style.length(kMajorSpacing) / view.scale())) {}
 
-  void ground() {
-    if (!scene_.ground_height) return;
-    const double height = *scene_.ground_height;
-    const double depth = std::fmin(world_.min.y(), height);
-    const Pixel corner = at(world_.min.x(), height);
-    canvas_.rectangle(
-        {corner.x, corner.y, view_.viewport().width, (height - depth) * view_.scale()},
-        dark::kGround);
+  void ground_and_boxes() {
+    const std::vector<Vec2> edge = edge_of_ground();
+    for (std::size_t i = 1; i < edge.size(); ++i) {
+      const double depth = std::min({world_.min.y(), edge[i - 1].y(), edge[i].y()});
+      canvas_.polygon({view_.to_pixel(edge[i - 1]), view_.to_pixel(edge[i]),
+                       at(edge[i].x(), depth), at(edge[i - 1].x(), depth)},
+                      dark::kGround);
+    }
+    for (const SolidBox& box : scene_.boxes) canvas_.polygon(outline_of(box), dark::kGround);
   }
 
   void grid() {
@@ -49,12 +52,13 @@ class Backdrop {
     }
   }
 
-  void edge_of_ground_and_walls() {
-    if (scene_.ground_height)
-      canvas_.line(at(world_.min.x(), *scene_.ground_height),
-                   at(world_.max.x(), *scene_.ground_height), dark::kGroundLine, style_.length(2));
-    for (const auto& [from, to] : scene_.walls)
-      canvas_.line(view_.to_pixel(from), view_.to_pixel(to), dark::kGroundLine, style_.length(4));
+  void edges_of_solids() {
+    canvas_.polyline(pixels(edge_of_ground()), dark::kGroundLine, style_.length(2));
+    for (const SolidBox& box : scene_.boxes)
+      canvas_.outline(outline_of(box), dark::kGroundLine, style_.length(2));
+    for (const Wall& wall : scene_.walls)
+      canvas_.line(view_.to_pixel(wall.from), view_.to_pixel(wall.to), dark::kGroundLine,
+                   style_.length(4));
   }
 
   void rails() {
@@ -118,6 +122,23 @@ class Backdrop {
     }
   }
 
+  /// The surface of the ground from the left to the right edge of the picture; empty without one.
+  std::vector<Vec2> edge_of_ground() const {
+    if (!scene_.ground) return {};
+    const Ground& ground = *scene_.ground;
+    std::vector<Vec2> edge{{world_.min.x(), ground.height_at(world_.min.x())}};
+    for (const Vec2& point : ground.profile) {
+      if (point.x() > world_.min.x() && point.x() < world_.max.x()) edge.push_back(point);
+    }
+    edge.emplace_back(world_.max.x(), ground.height_at(world_.max.x()));
+    return edge;
+  }
+
+  std::vector<Pixel> outline_of(const SolidBox& box) const {
+    const std::array<Vec2, 4> corners = box.corners();
+    return pixels({corners.begin(), corners.end()});
+  }
+
   Pixel at(double x, double y) const { return view_.to_pixel({x, y}); }
 
   std::vector<Pixel> pixels(const std::vector<Vec2>& points) const {
@@ -157,10 +178,10 @@ void draw_backdrop(Canvas& canvas, const View& view, const SceneDrawing& scene, 
                    const Style& style, const Typefaces& fonts) {
   canvas.fill(dark::kWorld);
   Backdrop backdrop(canvas, view, scene, style, fonts);
-  if (layers.shows(Layer::kGround)) backdrop.ground();
+  if (layers.shows(Layer::kGround)) backdrop.ground_and_boxes();
   if (layers.shows(Layer::kGrid)) backdrop.grid();
   if (layers.shows(Layer::kFieldOfView)) backdrop.field_of_view();
-  if (layers.shows(Layer::kGround)) backdrop.edge_of_ground_and_walls();
+  if (layers.shows(Layer::kGround)) backdrop.edges_of_solids();
   if (layers.shows(Layer::kRails)) backdrop.rails();
   if (layers.shows(Layer::kGrid)) {
     backdrop.numbers();

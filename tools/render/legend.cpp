@@ -12,6 +12,7 @@ std::u32string_view meaning(Sign sign) {
     case Sign::kTrain:
     case Sign::kBall:
     case Sign::kBalloon:
+    case Sign::kDrone:
       return U"truth";
     case Sign::kFieldOfView:
       return U"field of view";
@@ -62,6 +63,12 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style) {
     case Sign::kBalloon:
       canvas.line(at(0, 4), at(1, 12), dark::kTruthEdge, style.length(1));
       canvas.polygon(ellipse_outline(at(0, -2), {6 * u, 0}, {0, 7 * u}), dark::kTruth);
+      break;
+    case Sign::kDrone:
+      canvas.polygon({at(-4, 0), at(4, 0), at(3, 5), at(-3, 5)}, dark::kTruth);
+      canvas.line(at(-9, 0), at(9, 0), dark::kTruth, style.length(2));
+      for (const double side : {-9.0, 9.0})
+        canvas.line(at(side - 4, -3), at(side + 4, -3), dark::kTruth, style.length(1.5));
       break;
     case Sign::kDetection:
       canvas.cross(m, 5 * u, dark::kDetection, style.length(1.5));

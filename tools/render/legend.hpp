@@ -12,6 +12,7 @@ enum class Sign {
   kTrain,
   kBall,
   kBalloon,
+  kDrone,
   kFieldOfView,
   kWind,
   kDetection,

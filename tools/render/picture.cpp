@@ -117,6 +117,7 @@ void Picture::draw_panel(Canvas& canvas, const View& view, const VideoFrame& fra
     if (shown.box) legend_.saw(Sign::kTrain);
     if (shown.disc) legend_.saw(Sign::kBall);
     if (shown.balloon) legend_.saw(Sign::kBalloon);
+    if (shown.drone) legend_.saw(Sign::kDrone);
   }
   if (options_.layers.shows(Layer::kNames))
     for (const TruthState& object : frame.truth.objects)

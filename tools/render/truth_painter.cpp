@@ -54,6 +54,21 @@ void draw_balloon(Canvas& canvas, Pixel centre, double radius, const Style& styl
               style.length(1.5));
 }
 
+/// Two rotors on a tilted arm, and a body below it.
+void draw_drone(Canvas& canvas, Pixel centre, double radius, double angle, const Style& style) {
+  const auto at = [&](double along, double up) {
+    return Pixel{centre.x + radius * (along * std::cos(angle) - up * std::sin(angle)),
+                 centre.y - radius * (along * std::sin(angle) + up * std::cos(angle))};
+  };
+  const double thick = style.length(1.6);
+  canvas.polygon({at(-0.3, 0.12), at(0.3, 0.12), at(0.2, -0.35), at(-0.2, -0.35)}, dark::kTruth);
+  canvas.line(at(-0.65, 0.05), at(0.65, 0.05), dark::kTruth, style.length(2));
+  for (const double side : {-0.65, 0.65}) {
+    canvas.line(at(side, 0.05), at(side, 0.3), dark::kTruthEdge, thick);
+    canvas.line(at(side - 0.35, 0.3), at(side + 0.35, 0.3), dark::kTruth, thick);
+  }
+}
+
 }  // namespace
 
 std::vector<Viewport> drawn_bodies(const View& view, const SceneDrawing& scene,
@@ -82,7 +97,9 @@ std::vector<Viewport> drawn_bodies(const View& view, const SceneDrawing& scene,
 }
 
 double drawn_radius(const Outline& outline, const View& view, const Style& style) {
-  const double smallest = outline.shape == Outline::Shape::kBalloon ? 7.0 : 4.5;
+  double smallest = 4.5;
+  if (outline.shape == Outline::Shape::kBalloon) smallest = 7.0;
+  if (outline.shape == Outline::Shape::kDrone) smallest = 11.0;
   return std::fmax(0.5 * outline.length * view.scale(), style.length(smallest));
 }
 
@@ -106,6 +123,10 @@ ShapesShown draw_truth(Canvas& canvas, const View& view, const SceneDrawing& sce
       case Outline::Shape::kBalloon:
         draw_balloon(canvas, centre, radius, style);
         shown.balloon = true;
+        break;
+      case Outline::Shape::kDrone:
+        draw_drone(canvas, centre, radius, body.angle, style);
+        shown.drone = true;
         break;
     }
   }

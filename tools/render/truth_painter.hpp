@@ -10,10 +10,11 @@ struct ShapesShown {
   bool box = false;
   bool disc = false;
   bool balloon = false;
+  bool drone = false;
 };
 
 /// Draws the true objects: cars as rotated boxes, balls as discs with a mark that spins, balloons
-/// with a string. Small ones are drawn larger than they are, so that they stay visible.
+/// with a string, drones with rotors. Small ones are drawn larger than they are, so that they stay visible.
 ShapesShown draw_truth(Canvas& canvas, const View& view, const SceneDrawing& scene,
                        const TruthSnapshot& truth, const Style& style);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "sensors/observation.hpp"
+#include "sim/surface.hpp"
 #include "sim/truth.hpp"
 #include "tools/render/errors.hpp"
 #include "tools/render/layers.hpp"
@@ -69,9 +69,10 @@ struct SceneDrawing {
   /// The part of the world to show; it should hold every object over the whole run. If absent, the
   /// fields of view, rails and walls are shown.
   std::optional<Rectangle> world;
-  std::optional<double> ground_height;     // [m]; absent: no ground
-  std::vector<std::array<Vec2, 2>> walls;  // segments [m]
-  std::vector<std::vector<Vec2>> rails;    // polylines [m], one per track
+  std::optional<Ground> ground;
+  std::vector<Wall> walls;
+  std::vector<SolidBox> boxes;
+  std::vector<std::vector<Vec2>> rails;  // polylines [m], one per track
   std::vector<SensorDrawing> sensors;
   std::vector<ObjectInfo> objects;
   /// What is compared side by side: at most six, each a panel of its own. Empty or one: one

@@ -72,9 +72,12 @@ Rectangle world_of(const SceneDrawing& scene) {
     points.insert(points.end(), sensor.field_of_view.begin(), sensor.field_of_view.end());
   for (const std::vector<Vec2>& rail : scene.rails)
     points.insert(points.end(), rail.begin(), rail.end());
-  for (const auto& [from, to] : scene.walls) {
-    points.push_back(from);
-    points.push_back(to);
+  for (const Wall& wall : scene.walls) {
+    points.push_back(wall.from);
+    points.push_back(wall.to);
+  }
+  for (const SolidBox& box : scene.boxes) {
+    for (const Vec2& corner : box.corners()) points.push_back(corner);
   }
   return bounding_rectangle(points).value_or(Rectangle{Vec2(-10.0, -10.0), Vec2(10.0, 10.0)});
 }
@@ -87,7 +90,7 @@ std::vector<Vec2> wind_points(const VideoOptions& options, const SceneDrawing& s
   for (double y = 0.5 * pixels; y < options.height; y += pixels)
     for (double x = 0.5 * pixels; x < options.width; x += pixels) {
       const Vec2 point = view.to_world({x, y});
-      if (!scene.ground_height || point.y() > *scene.ground_height) points.push_back(point);
+      if (!scene.ground || point.y() > scene.ground->height_at(point.x())) points.push_back(point);
     }
   return points;
 }

@@ -104,13 +104,15 @@ TEST(Picture, DrawsEstimatesThatAreAliveTogetherInDifferentColours) {
 TEST(Picture, SurvivesPositionsThatAreNotInThePicture) {
   SceneDrawing scene = one_ball();
   scene.rails = {{Vec2(kNan, 0.0), Vec2(1e300, 4.0)}, {Vec2(-1e9, 0.0), Vec2(1e9, 4.0)}};
-  scene.ground_height = 1e12;
-  scene.walls = {{Vec2(-1e300, 0.0), Vec2(1e300, 1.0)}};
+  scene.ground = Ground{.height = 1e12};
+  scene.walls = {Wall{.from = Vec2(-1e300, 0.0), .to = Vec2(1e300, 1.0)}};
+  scene.boxes = {SolidBox{.center = Vec2(1e300, 0.0)}, SolidBox{.size = Vec2(1e12, 1e300)}};
   scene.title = std::string(4000, 'x') + "\xFF\x1b<script>";
   scene.objects[0].name = scene.title;
   for (const double bad : {kNan, 1e300, -1e18, 1e7}) {
     for (const Outline::Shape shape :
-         {Outline::Shape::kBox, Outline::Shape::kDisc, Outline::Shape::kBalloon}) {
+         {Outline::Shape::kBox, Outline::Shape::kDisc, Outline::Shape::kBalloon,
+          Outline::Shape::kDrone}) {
       scene.objects[0].outline = {shape, 25.0, 3.0};
       VideoFrame frame = ball_at({bad, 50.0});
       frame.wind = {{Vec2(bad, bad), Vec2(bad, bad)}};

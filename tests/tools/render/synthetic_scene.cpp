@@ -37,8 +37,8 @@ SyntheticScene::SyntheticScene(int panels)
   drawing_.seed = 7;
   drawing_.duration = 10.0;
   drawing_.world = Rectangle{Vec2(-10.0, -6.0), Vec2(170.0, 72.0)};
-  drawing_.ground_height = 0.0;
-  drawing_.walls = {{Vec2(140.0, 0.0), Vec2(140.0, 12.0)}};
+  drawing_.ground = Ground{};
+  drawing_.walls = {Wall{.from = Vec2(140.0, 0.0), .to = Vec2(140.0, 12.0)}};
   drawing_.rails = {{Vec2(-40.0, 1.4), Vec2(200.0, 1.4)},
                     {point_on_slope(-20.0), point_on_slope(180.0)}};
   drawing_.sensors = {{"camera",

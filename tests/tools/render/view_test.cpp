@@ -55,7 +55,7 @@ TEST(View, BoundsFinitePointsOnly) {
 TEST(View, SamplesTheWindAboveTheGround) {
   SceneDrawing scene;
   scene.world = Rectangle{Vec2(0.0, -10.0), Vec2(100.0, 50.0)};
-  scene.ground_height = 0.0;
+  scene.ground = Ground{};
   const std::vector<Vec2> points = wind_points(VideoOptions{}, scene);
   EXPECT_GT(points.size(), 10u);
   EXPECT_LT(points.size(), 100u);

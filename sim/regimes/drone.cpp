@@ -1,0 +1,162 @@
+#include "sim/regimes/drone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/portable_math.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kVelocityTime = 0.4;  // τ of the velocity loop [s]
+constexpr double kApproachTime = 1.0;  // within reach of a place the speed is distance / this [s]
+// Attitude control holds the drone upright against all that a touch does to its rim.
+constexpr double kInertia = 100.0;
+
+Drone make_preset(std::string_view type, double mass, double radius, double drag_area, double speed,
+                  double acceleration, double max_tilt_deg, double max_thrust,
+                  double attitude_rate) {
+  Drone drone;
+  drone.type = type;
+  drone.mass = mass;
+  drone.radius = radius;
+  drone.drag_area = drag_area;
+  drone.speed = speed;
+  drone.acceleration = acceleration;
+  drone.max_tilt_deg = max_tilt_deg;
+  drone.max_thrust = max_thrust;
+  drone.attitude_rate = attitude_rate;
+  return drone;
+}
+
+Vec2 shortened_to(double length, const Vec2& v) {
+  const double norm = v.norm();
+  return norm > length ? Vec2(length / norm * v) : v;
+}
+
+}  // namespace
+
+std::span<const Drone> Drone::presets() {
+  // Rounded figures of common classes. The drag area follows from the top speed of the class at its
+  // largest tilt: m g tan θ = ½ ρ C_d A v², with 20, 35 and 16 m/s.
+  static const std::vector<Drone> rows{
+      make_preset("camera-drone", 0.9, 0.2, 0.0258, 12.0, 4.0, 35.0, 2.0, 8.0),
+      make_preset("racing-drone", 0.6, 0.15, 0.0139, 25.0, 15.0, 60.0, 5.0, 20.0),
+      make_preset("delivery-drone", 9.0, 0.7, 0.332, 12.0, 2.5, 30.0, 1.8, 5.0),
+  };
+  return rows;
+}
+
+void Drone::shift(const Vec2& by) {
+  position += by;
+  for (FlightOrder& order : plan) {
+    if (auto* const fly_to = std::get_if<FlyTo>(&order.order)) fly_to->place += by;
+  }
+}
+
+DroneModel::DroneModel(const Drone& drone)
+    : drone_(drone),
+      round_{drone.radius, kInertia, drone.restitution, drone.friction},
+      max_tilt_(drone.max_tilt_deg * portable::kPi / 180.0) {
+  const portable::SinCos tilt = portable::sin_cos(max_tilt_);
+  tan_max_tilt_ = tilt.sin / tilt.cos;
+}
+
+DroneModel::State DroneModel::start(const Environment&, double) const {
+  State state;
+  state.position = drone_.position;
+  state.velocity = drone_.velocity;
+  return state;
+}
+
+Vec2 DroneModel::wanted_velocity(const FlightState& state, double time) const {
+  const auto later = std::find_if(drone_.plan.begin(), drone_.plan.end(),
+                                  [time](const FlightOrder& order) { return order.at > time; });
+  Vec2 place = drone_.position;
+  if (later != drone_.plan.begin()) {
+    const auto& order = (later - 1)->order;
+    if (const auto* const keep = std::get_if<KeepVelocity>(&order)) return keep->velocity;
+    place = std::get<FlyTo>(order).place;
+  }
+  const Vec2 way = place - state.position;
+  const double distance = way.norm();
+  // Fast enough to arrive soon, slow enough to stop there with half of the acceleration.
+  const double speed = std::min({drone_.speed, distance / kApproachTime,
+                                 std::sqrt(drone_.acceleration * distance)});
+  return distance > 0.0 ? Vec2(speed / distance * way) : Vec2::Zero();
+}
+
+FlightRate DroneModel::rate(const FlightState& state, const Environment& environment,
+                            double time) const {
+  const Vec2 air = state.velocity - environment.wind().at(state.position, time);
+  const double k = 0.5 * environment.air().density * drone_.drag_area / drone_.mass;
+  const Vec2 drag = -k * air.norm() * air;
+  const Vec2 wanted =
+      shortened_to(drone_.acceleration,
+                   (wanted_velocity(state, time) - state.velocity) / kVelocityTime) -
+      drag - environment.gravity();
+
+  const double gravity = -environment.gravity().y();
+  if (gravity == 0.0) return {shortened_to(kStandardGravity * tan_max_tilt_, wanted) + drag, 0.0};
+
+  const double upwards = std::max(wanted.y(), 0.1 * gravity);
+  const double tilt =
+      std::clamp(portable::atan2(-wanted.x(), upwards), -max_tilt_, max_tilt_);
+  const portable::SinCos angle = portable::sin_cos(state.angle);
+  const Vec2 axis(-angle.sin, angle.cos);
+  const double thrust = std::clamp(wanted.dot(axis), 0.0, drone_.max_thrust * gravity);
+  return {thrust * axis + drag + environment.gravity(),
+          drone_.attitude_rate * drone_.attitude_rate * (tilt - state.angle) -
+              2.0 * drone_.attitude_damping * drone_.attitude_rate * state.spin};
+}
+
+double DroneModel::next_order(double time) const {
+  for (const FlightOrder& order : drone_.plan) {
+    if (order.at > time) return order.at;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+void DroneModel::advance(State& state, const Environment& environment, double from,
+                         double to) const {
+  const Wind& wind = environment.wind();
+  while (from < to) {
+    const double order_ends = std::min(to, next_order(from));
+    wind.over_smooth_parts(from, order_ends, [&](double begin, double end) {
+      fly_stiffly(
+          state, begin, end, round_, environment.surfaces(),
+          [&](const FlightState& s, double time) {
+            return rate(s, environment, Wind::inside(time, begin, end));
+          },
+          [&](const FlightState& s, double time) {
+            const Vec2 air = s.velocity - wind.at(s.position, Wind::inside(time, begin, end));
+            const double drag = environment.air().density * drone_.drag_area / drone_.mass;
+            return drag * air.norm() + 1.0 / kVelocityTime +
+                   drone_.attitude_rate * (1.0 + drone_.attitude_damping);
+          });
+    });
+    from = order_ends;
+  }
+}
+
+PlanarMotion DroneModel::kinematics(const State& state, const Environment& environment,
+                                    double time, int) const {
+  return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
+}
+
+RigidBody DroneModel::body(const State& state, int) const {
+  return {state.position, state.velocity, state.angle, state.spin};
+}
+
+ContactProperties DroneModel::contact() const {
+  return {{Outline::Shape::kDrone, 2.0 * drone_.radius, 2.0 * drone_.radius},
+          drone_.mass,
+          round_.inertia,
+          drone_.restitution,
+          drone_.friction};
+}
+
+void DroneModel::adopt(State& state, const RigidBody& body) const { adopt_flight(state, body); }
+
+}  // namespace ghtrack
