@@ -102,13 +102,14 @@ Vec2 Wind::without_jumps(const Vec2& position, double time) const {
   return wind + turbulence_.at(position, time);
 }
 
-Vec2 Wind::material_derivative(const Vec2& position, double time) const {
+Vec2 Wind::material_derivative(const Vec2& position, double time, double earliest,
+                               double latest) const {
   if (uniform_) return Vec2::Zero();
   constexpr double kHalfSpan = 1e-4;  // [s]; the rounding error is then 1e-11 m/s²
   const Vec2 wind = at(position, time);
-  const double before = std::max(0.0, time - kHalfSpan);
-  const double after = time + kHalfSpan;
-  return (without_jumps(position + kHalfSpan * wind, after) -
+  const double before = std::max({0.0, earliest, time - kHalfSpan});
+  const double after = std::min(latest, time + kHalfSpan);
+  return (without_jumps(position + (after - time) * wind, after) -
           without_jumps(position - (time - before) * wind, before)) /
          (after - before);
 }

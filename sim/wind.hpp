@@ -245,9 +245,10 @@ class Wind {
   /// Velocity of the air [m/s].
   Vec2 at(const Vec2& position, double time) const;
 
-  /// Its change along a particle of air, Dw/Dt = ∂w/∂t + (w·∇)w [m/s²], by central differences.
-  /// Where the wind jumps there is no derivative: steps are left out.
-  Vec2 material_derivative(const Vec2& position, double time) const;
+  /// Its change along a particle of air, Dw/Dt = ∂w/∂t + (w·∇)w [m/s²], by differences that stay
+  /// within [earliest, latest], where the wind is smooth. Steps have no derivative: they are left
+  /// out.
+  Vec2 material_derivative(const Vec2& position, double time, double earliest, double latest) const;
 
   /// Calls `integrate(begin, end)` for each part of [from, to] during which the wind is smooth in
   /// time. To stay on the right side of a jump, `integrate` asks for the wind at `inside(…)` only.

@@ -1,6 +1,7 @@
 #include "sim/regimes/balloon.hpp"
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "sim/portable_math.hpp"
@@ -48,8 +49,8 @@ double BalloonModel::drag_per_speed(const Environment& environment) const {
   return 0.5 * density * balloon_.drag * area / (mass_ + balloon_.added_mass * density * volume_);
 }
 
-FlightRate BalloonModel::rate(const FlightState& state, const Environment& environment,
-                              double time) const {
+FlightRate BalloonModel::rate(const FlightState& state, const Environment& environment, double time,
+                              double earliest, double latest) const {
   const double displaced = environment.air().density * volume_;
   const double inertia = mass_ + balloon_.added_mass * displaced;
   const Vec2 air = environment.wind().at(state.position, time) - state.velocity;
@@ -57,8 +58,9 @@ FlightRate BalloonModel::rate(const FlightState& state, const Environment& envir
   rate.acceleration = drag_per_speed(environment) * air.norm() * air +
                       (mass_ - displaced) / inertia * environment.gravity();
   if (balloon_.fluid_acceleration) {
-    rate.acceleration += (1.0 + balloon_.added_mass) * displaced / inertia *
-                         environment.wind().material_derivative(state.position, time);
+    rate.acceleration +=
+        (1.0 + balloon_.added_mass) * displaced / inertia *
+        environment.wind().material_derivative(state.position, time, earliest, latest);
   }
   return rate;
 }
@@ -71,7 +73,7 @@ void BalloonModel::advance(State& state, const Environment& environment, double 
     fly_stiffly(
         state, begin, end, round_, environment.surfaces(),
         [&](const FlightState& s, double time) {
-          return rate(s, environment, Wind::inside(time, begin, end));
+          return rate(s, environment, Wind::inside(time, begin, end), begin, end);
         },
         [&](const FlightState& s, double time) {
           const Vec2 air = s.velocity - wind.at(s.position, Wind::inside(time, begin, end));
@@ -82,7 +84,9 @@ void BalloonModel::advance(State& state, const Environment& environment, double 
 
 PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment,
                                       double time, int) const {
-  return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
+  constexpr double kEver = std::numeric_limits<double>::infinity();
+  return flight_kinematics(state, rate(state, environment, time, 0.0, kEver), round_,
+                           environment.surfaces());
 }
 
 RigidBody BalloonModel::body(const State& state, int) const {

@@ -110,7 +110,9 @@ class BalloonModel {
   void adopt(State& state, const RigidBody& body) const;
 
  private:
-  FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
+  /// @param earliest, latest  between which the wind is smooth [s]
+  FlightRate rate(const FlightState& state, const Environment& environment, double time,
+                  double earliest, double latest) const;
   double drag_per_speed(const Environment& environment) const;  // k of −k |u| u [1/m]
 
   Balloon balloon_;

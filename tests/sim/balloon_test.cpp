@@ -12,7 +12,7 @@
 namespace ghtrack {
 namespace {
 
-// Derived: v = √(2 (ρ V − m) g / (ρ C_d π R²)) = 2.214 m/s for the 11-inch balloon.
+// T16. Derived: v = √(2 (ρ V − m) g / (ρ C_d π R²)) = 2.214 m/s for the 11-inch balloon.
 TEST(Balloon, RisesAtItsTerminalSpeed) {
   World world(world_of({target_of(Balloon{})}), 1);
   EXPECT_NEAR(state_at(world, 5.0).velocity.y(), 2.2141, 0.0001);
@@ -29,8 +29,8 @@ TEST(Balloon, CarriesTheAirAroundItAlong) {
               (1.2 * volume - mass) * kStandardGravity / (mass + 0.6 * volume), 1e-9);
 }
 
-// Property: quasi-steady drag never makes a balloon faster than the wind. With its own mass only
-// and explicit drag at 60 Hz the speed oscillates up to 120 m/s.
+// T17. Property: quasi-steady drag never makes a balloon faster than the wind. With its own mass
+// only and explicit drag at 60 Hz the speed oscillates up to 120 m/s.
 TEST(Balloon, IsNeverFasterThanAGust) {
   for (const double rate : {60.0, 240.0}) {
     WorldConfig config = world_of({target_of(Balloon{})});

@@ -45,7 +45,8 @@ ThrownBall fly_ball() {  // 100 mph, 27.5°, 2000 rpm of backspin
   return ball;
 }
 
-// Derived: v_t = √(2 m g / ρ C_d A), and y = −ln cosh(g t / v_t) / k on the way there.
+// T5. Derived: v_t = √(2 m g / ρ C_d A) within 1 % after 15 s, and y = −ln cosh(g t / v_t) / k on
+// the way there. Without drag it would be 147 m/s.
 TEST(ThrownBall, FallsAtItsTerminalSpeed) {
   for (const char* type : {"baseball", "tennis", "basketball", "table-tennis"}) {
     ThrownBall ball = preset(type);
@@ -98,8 +99,8 @@ TEST(ThrownBall, IsLiftedByBackspin) {
   EXPECT_NEAR(height(-40.0, -200.0), height(40.0, 200.0), 1e-12);
 }
 
-// Derived: a drop from h without drag rebounds to e² h, whatever the phase of the impact within a
-// step. Box2D at 60 Hz: standard deviation 3.8 %, range −6 … +10 %.
+// T8. Derived: a drop from h without drag rebounds to e² h, whatever the phase of the impact within
+// a step. Box2D at 60 Hz: standard deviation 3.8 %, range −6 … +10 %.
 TEST(ThrownBall, ReboundsToTheSameHeightAtEveryPhase) {
   for (int phase = 0; phase < 400; ++phase) {
     const double drop = 1.0 + phase / 200.0;  // 1 … 3 m

@@ -20,8 +20,8 @@ Train stock(const std::string& name) {
   throw std::invalid_argument(name);
 }
 
-// Derived: T = ∫ M dv / R(v), s = ∫ M v dv / R(v), by Simpson's rule: 898.34 s and 10301.4 m for
-// the EMU from 30 m/s. A constant force that goes on acting at rest drives it 2161 m backwards
+// T10. Derived: T = ∫ M dv / R(v), s = ∫ M v dv / R(v), by Simpson's rule: 898.34 s and 10301.4 m
+// for the EMU from 30 m/s. A constant force that goes on acting at rest drives it 2161 m backwards
 // instead.
 TEST(Train, CoastsToAStandWhereTheIntegralSaysAndStays) {
   Train train = stock("RB425");
@@ -65,8 +65,8 @@ TEST(Train, CoastsWithThePublishedDecelerations) {
   EXPECT_NEAR(deceleration("freight", 15.0), 0.0157, 0.0005);
 }
 
-// Property: a braked train stops and stays; the speed is never negative. A brake that is a force
-// ends at −25 m/s.
+// T11. Property: a braked train stops and stays; the speed is never negative. A brake that is a
+// force ends at −25 m/s.
 TEST(Train, StopsAndRemainsStopped) {
   for (const BrakeKind brake : {BrakeKind::kService, BrakeKind::kEmergency}) {
     Train train = single_car(0.0, 40.0, {phase_at(2.0, Brake{brake})});
@@ -79,7 +79,8 @@ TEST(Train, StopsAndRemainsStopped) {
   }
 }
 
-// Derived: v = a t. Box2D's sleeping keeps a train for ever that starts at less than 0.02 m/s².
+// T12. Derived: v = a t. Box2D's sleeping keeps a train for ever that starts at less than 0.02
+// m/s².
 TEST(Train, StartsGentlyFromAHalt) {
   Train train = single_car(0.0, 0.0, {phase_at(2.0, Accelerate{0.005})});
   World world(world_of({target_of(train)}), 1);
@@ -207,8 +208,8 @@ TEST(Train, StopsWithSpringsBetweenItsCars) {
   }
 }
 
-// Derived: nothing that a train does exceeds its brakes and tractive effort along, v²/R across the
-// track. Chords of 20 m on R = 300 m look like 60 m/s².
+// T14. Derived: nothing that a train does exceeds its brakes and tractive effort along, v²/R across
+// the track. Chords of 20 m on R = 300 m look like 60 m/s².
 TEST(Train, NeverAcceleratesMoreThanItsTrackDemands) {
   Train train = single_car(0.0, 15.0, {phase_at(20.0, Accelerate{0.4}), phase_at(40.0, Brake{})});
   train.track = {Straight{100.0}, Curve{300.0, 90.0, {}, 60.0}, Curve{-250.0, 45.0, {}, 50.0}};
@@ -224,8 +225,9 @@ TEST(Train, NeverAcceleratesMoreThanItsTrackDemands) {
   }
 }
 
-// Property: the speed on a closed loop does not suffer from its curvature (Box2D with a projected
-// velocity loses 3.3 m along the track in a minute), and the train comes back to its place.
+// T13. Property: the speed on a closed loop does not suffer from its curvature (Box2D with a
+// projected velocity loses 3.3 m along the track in a minute), and the train comes back to its
+// place.
 TEST(Train, ComesBackOnALoop) {
   Train train = single_car(0.0, 20.0);
   train.track = {Straight{200.0}, Curve{100.0, 180.0, {}, 0.0}, Straight{200.0},
