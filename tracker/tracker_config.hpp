@@ -25,6 +25,16 @@ constexpr std::array<std::pair<std::string_view, Association>, 3> enum_names(Ass
            {"known", Association::kKnown}}};
 }
 
+/// What becomes of a scan that arrives after a later one?
+enum class LateScans {
+  kRefuse,  // it is left out and counted
+  kReplay,  // it is put where it belongs, and all that followed is processed again
+};
+
+constexpr std::array<std::pair<std::string_view, LateScans>, 2> enum_names(LateScans) {
+  return {{{"refuse", LateScans::kRefuse}, {"replay", LateScans::kReplay}}};
+}
+
 /// Confirms a track after `hits` hits among its last `scans` scans.
 struct HitRule {
   int hits = 3;
@@ -75,7 +85,9 @@ struct TrackerConfig {
   HitRule confirm;
   MissRule drop_tentative{.misses = 2, .scans = 2};
   MissRule drop_confirmed{.misses = 5, .scans = 5};
-  int drop_unseen = 10;                         // scans without a detection, in view or not
+  int drop_unseen = 10;  // scans without a detection, in view or not
+  LateScans late_scans = LateScans::kRefuse;
+  double late_window = 2.0;                     // how late a scan may be and still be replayed [s]
   std::map<std::string, FilterConfig> filters;  // by reported class, or "default"
 
   template <class Visitor>
@@ -98,6 +110,13 @@ struct TrackerConfig {
             {.meaning = "a track without a detection in this many scans ends, in view or not",
              .minimum = 1,
              .maximum = 1e6});
+    v.field("late_scans", &TrackerConfig::late_scans,
+            {.meaning = "what becomes of a scan that arrives after a later one"});
+    v.field("late_window", &TrackerConfig::late_window,
+            {.unit = "s",
+             .meaning = "a scan later than this is not replayed; each scan in it is kept in memory",
+             .above = 0.0,
+             .maximum = 1e3});
     v.field("filters", &TrackerConfig::filters,
             {.meaning = "filter by reported class; `default` serves every other class and "
                         "detections without one"});
