@@ -36,7 +36,9 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   World world = make_world(scene);
   RunWriter files(folder, world.objects(), sensor_names(scene));
   RunMetricsOptions scoring;
-  scoring.sigma = traits_of(scene.sensors.front()).sigma;
+  const SensorTraits first = traits_of(scene.sensors.front());
+  scoring.sigma = first.sigma;
+  scoring.period = first.period;
   RunMetrics metrics(world.objects(), scoring);
   std::optional<VideoFrames> frames;
   if (video.value_or(scene.video.has_value())) {
@@ -44,22 +46,28 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   }
 
   Listener listener;
-  listener.on_scan = [&](const StepRecord& record) {
+  listener.on_observation = [&](const TruthSnapshot& truth, const Observation& observation) {
     stop_if_interrupted();
-    files.add(record);
-    metrics.add(record);
+    files.add_observation(truth, observation);
+    metrics.add_observation(truth, observation);
+  };
+  listener.on_scan = [&](const StepRecord& record) {
+    files.add_tracks(record.tracks);
+    metrics.add_tracks(record);
     if (frames) frames->add_scan(record);
   };
   if (frames) {
+    listener.on_late_scan = [&](const Observation& late) { frames->add_late_scan(late); };
     listener.frame_times = frames->times();
     listener.on_frame = [&](const TruthSnapshot& truth) {
       stop_if_interrupted();
       frames->add_frame(truth);
     };
   }
-  ghtrack::run(scene, world, listener);
+  const RunCounts counts = ghtrack::run(scene, world, listener);
 
-  const RunReport report = metrics.report();
+  RunReport report = metrics.report();
+  report.counts = counts;
   if (frames) frames->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", to_json(report).dump(2) + "\n");

@@ -84,6 +84,7 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
                      manners.quiet);
   Listener listener;
   listener.on_scan = [&](const StepRecord& record) { frames.add_scan(record); };
+  listener.on_late_scan = [&](const Observation& late) { frames.add_late_scan(late); };
   listener.frame_times = frames.times();
   listener.on_frame = [&](const TruthSnapshot& truth) {
     stop_if_interrupted();

@@ -105,6 +105,11 @@ void VideoFrames::add_scan(const StepRecord& record) {
   ++frame_.scans;
 }
 
+void VideoFrames::add_late_scan(const Observation& observation) {
+  latest_[observation.scan.sensor] = observation;
+  ++frame_.scans;
+}
+
 void VideoFrames::add_frame(const TruthSnapshot& truth) {
   frame_.time = truth.time;
   frame_.truth = truth;

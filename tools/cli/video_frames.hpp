@@ -28,6 +28,7 @@ class VideoFrames {
   const std::vector<double>& times() const { return times_; }
 
   void add_scan(const StepRecord& record);
+  void add_late_scan(const Observation& observation);
   void add_frame(const TruthSnapshot& truth);
   render::VideoWriter& writer() { return writer_; }
 

@@ -39,9 +39,28 @@ RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions&
     : objects_(std::move(objects)),
       options_(options),
       tallies_(objects_.size()),
+      floor_(objects_.size(), options.sigma, options.period),
       mot_({options.gospa().cutoff, options.gospa().order}) {}
 
-void RunMetrics::add(const StepRecord& record) {
+void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& observation) {
+  floor_.add_observation(truth, observation);
+  std::vector<const TruthState*> state_of(tallies_.size(), nullptr);
+  for (const TruthState& state : truth.objects) {
+    state_of.at(static_cast<std::size_t>(state.id)) = &state;
+  }
+  for (std::size_t i = 0; i < observation.origins.size(); ++i) {
+    if (observation.origins[i] == kClutterOrigin) continue;
+    const auto object = static_cast<std::size_t>(observation.origins[i]);
+    if (state_of.at(object) == nullptr) continue;
+    ObjectTally& tally = tallies_[object];
+    ++tally.detections;
+    tally.squared_measurement_error +=
+        (observation.scan.detections[i].position - state_of[object]->position).squaredNorm();
+  }
+}
+
+void RunMetrics::add_tracks(const StepRecord& record) {
+  floor_.go_to(record.tracks.time, record.tracks.sensor);
   score_sets(record);
   update_following(record);
 
@@ -59,20 +78,6 @@ void RunMetrics::add(const StepRecord& record) {
     }
     tally.before = truth;
     tally.before_time = record.truth.time;
-  }
-  score_detections(record);
-}
-
-/// Compares the raw detections with the objects that made them.
-void RunMetrics::score_detections(const StepRecord& record) {
-  for (std::size_t i = 0; i < record.observation.origins.size(); ++i) {
-    const ObjectId origin = record.observation.origins[i];
-    if (origin == kClutterOrigin) continue;
-    ObjectTally& tally = tallies_.at(static_cast<std::size_t>(origin));
-    if (!tally.before || tally.before_time != record.truth.time) continue;  // it has just gone
-    ++tally.detections;
-    tally.squared_measurement_error +=
-        (record.observation.scan.detections[i].position - tally.before->position).squaredNorm();
   }
 }
 
@@ -150,6 +155,10 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   }
   const Vec2 lag = track.lag_per_acceleration * truth.acceleration + track.lag_per_jerk * jerk;
   tally.predicted_square += track.noise_sigma.squaredNorm() + lag.squaredNorm();
+  if (const auto squares = floor_.squared_errors(truth.id)) {
+    for (std::size_t i = 0; i < squares->size(); ++i) tally.floor_square[i] += (*squares)[i];
+    ++tally.floor_count;
+  }
   if (track.sigma.minCoeff() > 0.0) {
     tally.nees.add(error.cwiseQuotient(track.sigma).squaredNorm());
   }
@@ -201,6 +210,8 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
   if (tally.predicted_square > 0.0) {
     report.predicted_rmse = root_mean(tally.predicted_square, report.tracked);
   }
+  report.floor_rmse = root_mean(
+      *std::min_element(tally.floor_square.begin(), tally.floor_square.end()), tally.floor_count);
   report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);
   report.bias = tally.error / static_cast<double>(report.tracked);
   if (tally.nees.count() > 0) {

@@ -9,14 +9,17 @@
 #include <vector>
 
 #include "tools/metrics/batch_means.hpp"
+#include "tools/metrics/error_floor.hpp"
 #include "tools/metrics/gospa.hpp"
 #include "tools/metrics/mot_score.hpp"
+#include "tools/record/run_counts.hpp"
 #include "tools/record/step_record.hpp"
 
 namespace ghtrack {
 
 struct RunMetricsOptions {
   double sigma = 1.0;                                   // noise of the first sensor per axis [m]
+  double period = 1.0;                                  // of its scans [s]
   std::optional<double> cutoff = std::nullopt;          // GOSPA's c [m]; 5 sigma if not given
   double order = 2.0;                                   // GOSPA's p
   double alpha = 2.0;                                   // GOSPA's alpha
@@ -44,6 +47,7 @@ struct ObjectReport {
   std::optional<double> rmse_position;         // √ mean |e|² [m]
   std::optional<Interval> rmse_position_ci95;  // 95 % confidence
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
+  std::optional<double> floor_rmse;            // of the best of FloorFilters in the same scans [m]
   std::optional<double> rmse_velocity;         // [m/s]
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
@@ -73,6 +77,7 @@ struct RunReport {
   RunMetricsOptions options;
   TotalReport total;
   std::vector<ObjectReport> objects;
+  RunCounts counts;  // for the caller to fill in
 };
 
 /// Scores a run scan by scan. Only confirmed and coasting tracks count as output. Memory does not
@@ -81,7 +86,11 @@ class RunMetrics {
  public:
   RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options);
 
-  void add(const StepRecord& record);
+  /// What a sensor saw of the truth, in the order of time.
+  void add_observation(const TruthSnapshot& truth, const Observation& observation);
+
+  /// What the tracker concluded from such a scan, in the order of time.
+  void add_tracks(const StepRecord& record);
 
   RunReport report() const;
 
@@ -105,6 +114,8 @@ class RunMetrics {
     double squared_velocity_error = 0.0;
     double squared_measurement_error = 0.0;
     double predicted_square = 0.0;  // variance and squared lag
+    FloorFilters::Values floor_square{};
+    std::int64_t floor_count = 0;
     double innovation = 0.0;
     std::int64_t innovations = 0;
     BatchMeans nees;
@@ -121,7 +132,6 @@ class RunMetrics {
   void score_sets(const StepRecord& record);
   void update_following(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
-  void score_detections(const StepRecord& record);
   void score_object(const TruthState& truth, const TrackEstimate& track, double time);
   ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
 
@@ -129,6 +139,7 @@ class RunMetrics {
   RunMetricsOptions options_;
   std::vector<ObjectTally> tallies_;  // by object
   Following following_;
+  ErrorFloor floor_;
   MotScore mot_;
   TotalReport sums_;  // GOSPA and its kin, not yet divided by the number of scans
 };

@@ -36,6 +36,7 @@ Json object_json(const ObjectReport& object) {
   json["rmse_position"] = number(object.rmse_position);
   json["rmse_position_ci95"] = interval(object.rmse_position_ci95);
   json["predicted_rmse"] = number(object.predicted_rmse);
+  json["floor_rmse"] = number(object.floor_rmse);
   json["rmse_velocity"] = number(object.rmse_velocity);
   json["measurement_rmse"] = number(object.measurement_rmse);
   json["bias"] = object.bias ? Json::array({number(object.bias->x()), number(object.bias->y())})
@@ -46,6 +47,31 @@ Json object_json(const ObjectReport& object) {
   json["nis"] = number(object.nis);
   json["nis_bounds95"] = interval(object.nis_bounds95);
   return json;
+}
+
+Json counts_json(const RunCounts& counts) {
+  Json json;
+  for (const RunCounts::Sensor& sensor : counts.sensors) {
+    json["scans"][sensor.name] = {{"in_order", sensor.scans.in_order},
+                                  {"replayed", sensor.scans.replayed},
+                                  {"refused", sensor.scans.refused}};
+  }
+  json["detections_refused"] = counts.detections_refused;
+  return json;
+}
+
+/// A line for every sensor whose scans came late, and one for what could not be used.
+std::string counts_text(const RunCounts& counts) {
+  std::string text;
+  for (const auto& [name, scans] : counts.sensors) {
+    if (scans.replayed + scans.refused == 0) continue;
+    text += fmt::format("{}: {} scans in order, {} replayed, {} refused.\n", name, scans.in_order,
+                        scans.replayed, scans.refused);
+  }
+  if (counts.detections_refused > 0) {
+    text += fmt::format("{} detections refused.\n", counts.detections_refused);
+  }
+  return text;
 }
 
 Json total_json(const TotalReport& total) {
@@ -82,22 +108,23 @@ Json to_json(const RunReport& report) {
                         {"gospa_alpha", gospa.alpha},
                         {"match_distance", report.options.matching()}};
   json["total"] = total_json(report.total);
+  json["arrivals"] = counts_json(report.counts);
   json["objects"] = Json::array();
   for (const ObjectReport& object : report.objects) json["objects"].push_back(object_json(object));
   return json;
 }
 
 std::string to_table(const RunReport& report) {
-  const std::vector<TextColumn> columns = {{"object", 20},           {"regime", 8},
-                                           {"filter and gains", 30}, {"RMSE [m]", 9, true},
-                                           {"predicted", 9, true},   {"raw", 9, true},
-                                           {"MAI [m]", 9, true},     {"used/missed", 12, true}};
+  const std::vector<TextColumn> columns = {
+      {"object", 17},        {"regime", 8},          {"filter and gains", 26},
+      {"RMSE [m]", 8, true}, {"predicted", 9, true}, {"floor", 8, true},
+      {"raw", 8, true},      {"MAI [m]", 8, true},   {"used/missed", 12, true}};
   std::vector<std::vector<std::string>> rows;
   for (const ObjectReport& object : report.objects) {
     rows.push_back({object.name, object.regime,
                     object.gains.empty() ? object.filter : object.filter + " " + object.gains,
                     cell(object.rmse_position), cell(object.predicted_rmse),
-                    cell(object.measurement_rmse), cell(object.mai),
+                    cell(object.floor_rmse), cell(object.measurement_rmse), cell(object.mai),
                     fmt::format("{}/{}", object.detections_used, object.detections_missed)});
   }
   const TotalReport& total = report.total;
@@ -111,7 +138,8 @@ std::string to_table(const RunReport& report) {
              "MOTA {:.3f}, IDF1 {:.3f}, HOTA {:.3f}; {} ID switches, {} fragmentations.\n",
              cell(total.gospa), gospa.cutoff, gospa.order, gospa.alpha, total.missed_targets,
              total.false_tracks, cell(total.ospa), clear.mota, total.mot.identity.idf1,
-             total.mot.hota.hota, clear.id_switches, clear.fragmentations);
+             total.mot.hota.hota, clear.id_switches, clear.fragmentations) +
+         counts_text(report.counts);
 }
 
 }  // namespace ghtrack

@@ -5,23 +5,36 @@
 
 #include "scenes/schema/scene.hpp"
 #include "sim/world.hpp"
+#include "tools/record/run_counts.hpp"
 #include "tools/record/step_record.hpp"
 
 namespace ghtrack {
 
-/// Who wants to hear of a run, in the order of time. At the same instant scans come before frames.
+/// Who wants to hear of a run. Everything comes in the order of time: what a sensor sees at the
+/// instant of its scan, what the tracker concludes when that scan has arrived. At the same instant
+/// scans come before frames.
 struct Listener {
+  /// Every scan as it is made, with the truth of that instant. May be empty.
+  std::function<void(const TruthSnapshot&, const Observation&)> on_observation;
+
+  /// What the tracker says after a scan that arrived in order, with the truth at the scan's
+  /// instant.
   std::function<void(const StepRecord&)> on_scan;
+
+  /// A scan that arrived after a later one. If it was replayed, its effect shows in the next
+  /// record. May be empty.
+  std::function<void(const Observation&)> on_late_scan;
 
   std::vector<double> frame_times;  // ascending [s]: when the truth is wanted for a picture
   std::function<void(const TruthSnapshot&)> on_frame;
 };
 
-/// Runs a scene from its start to its end: world → sensors → tracker, scan by scan. Memory does not
-/// grow with the duration: what is worth keeping is the listener's choice. Asking for frames
-/// changes nothing of what the scans say.
+/// Runs a scene from its start to its end: world → sensors → tracker, scan by scan, in the order in
+/// which scans arrive (scan time + latency). Memory does not grow with the duration: what is worth
+/// keeping is the listener's choice. Asking for frames changes nothing of what the scans say.
 /// @param world  freshly made from the scene
-void run(const WorldScene& scene, World& world, const Listener& listener);
+/// @return how the scans of each sensor arrived, and the detections that the tracker refused
+RunCounts run(const WorldScene& scene, World& world, const Listener& listener);
 
 /// The world of a scene at its start.
 World make_world(const WorldScene& scene);

@@ -47,11 +47,7 @@ RunWriter::RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo
   origins_.write("t,sensor,x,y,truth_id\n");
 }
 
-void RunWriter::add(const StepRecord& record) {
-  write_truth(record.truth);
-  write_observation(record.observation);
-  tracks_.add(record.tracks);
-}
+void RunWriter::add_tracks(const TrackSnapshot& tracks) { tracks_.add(tracks); }
 
 void RunWriter::commit() {
   truth_.commit();
@@ -74,7 +70,8 @@ void RunWriter::write_truth(const TruthSnapshot& truth) {
   truth_.write(rows_.text());
 }
 
-void RunWriter::write_observation(const Observation& observation) {
+void RunWriter::add_observation(const TruthSnapshot& truth, const Observation& observation) {
+  write_truth(truth);
   const Scan& scan = observation.scan;
   const auto index = static_cast<std::size_t>(scan.sensor);
   const std::string sensor =

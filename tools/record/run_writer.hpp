@@ -37,12 +37,16 @@ class RunWriter {
   RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
             std::vector<std::string> sensors = {});
 
-  void add(const StepRecord& record);
+  /// What a sensor saw of the truth, in the order of time.
+  void add_observation(const TruthSnapshot& truth, const Observation& observation);
+
+  /// What the tracker concluded, in the order of time.
+  void add_tracks(const TrackSnapshot& tracks);
+
   void commit();
 
  private:
   void write_truth(const TruthSnapshot& truth);
-  void write_observation(const Observation& observation);
 
   std::vector<ObjectInfo> objects_;
   std::vector<std::string> sensors_;

@@ -46,6 +46,11 @@ StepRecord one_object(double time) {
   return record;
 }
 
+void add(RunMetrics& metrics, const StepRecord& record) {
+  metrics.add_observation(record.truth, record.observation);
+  metrics.add_tracks(record);
+}
+
 // Derived: constant errors, computed by hand.
 TEST(RunMetrics, MeasuresErrorsPerObject) {
   RunMetrics metrics({object(0, "ball")}, {.sigma = 1.0});
@@ -59,7 +64,7 @@ TEST(RunMetrics, MeasuresErrorsPerObject) {
     estimate.residual = Vec2(0.6, 0.8);
     estimate.innovation_covariance = 0.5 * Eigen::Matrix2d::Identity();
     record.tracks.tracks = {estimate};
-    metrics.add(record);
+    add(metrics, record);
   }
   const RunReport report = metrics.report();
   const ObjectReport& ball = report.objects.at(0);
@@ -99,7 +104,7 @@ TEST(RunMetrics, AddsTheLagToThePrediction) {
     estimate.lag_per_acceleration = 0.2;
     estimate.detection = 0;
     record.tracks.tracks = {estimate};
-    metrics.add(record);
+    add(metrics, record);
   }
   const RunReport report = metrics.report();
   EXPECT_NEAR(*report.objects[0].predicted_rmse, 0.5, 1e-12);
@@ -119,7 +124,7 @@ TEST(RunMetrics, CountsUsedAndMissedDetections) {
       estimate.detection = 0;
     }
     record.tracks.tracks = {estimate};
-    metrics.add(record);
+    add(metrics, record);
   }
   const RunReport report = metrics.report();
   EXPECT_EQ(report.objects[0].tracked, 8);
@@ -139,7 +144,7 @@ TEST(RunMetrics, FollowsDetectionsNotDistances) {
     TrackEstimate sluggish = track(i < 6 ? 1 : 2, {30.0, 40.0});
     sluggish.detection = 0;
     record.tracks.tracks = {track(9, {0.0, 0.0}), sluggish};
-    metrics.add(record);
+    add(metrics, record);
   }
   const RunReport report = metrics.report();
   EXPECT_NEAR(*report.objects[0].rmse_position, 50.0, 1e-9);
@@ -167,7 +172,7 @@ TEST(RunMetrics, FindsAConsistentFilterConsistent) {
     estimate.residual = Vec2(rx, ry);
     estimate.innovation_covariance = 0.0625 * Eigen::Matrix2d::Identity();
     record.tracks.tracks = {estimate};
-    metrics.add(record);
+    add(metrics, record);
   }
   const RunReport report = metrics.report();
   const ObjectReport& ball = report.objects[0];
@@ -186,7 +191,7 @@ TEST(RunReport, HasNullForWhatDidNotOccur) {
   StepRecord record = one_object(0.0);
   record.observation.scan.detections.clear();
   record.observation.origins.clear();
-  metrics.add(record);
+  add(metrics, record);
   const auto json = to_json(metrics.report());
   EXPECT_EQ(json.at("objects").at(0).at("name"), "never seen");
   EXPECT_TRUE(json.at("objects").at(0).at("rmse_position").is_null());
