@@ -60,7 +60,7 @@ void Mover::release(State& state, const Environment& environment, const PlanarMo
 }
 
 PlanarMotion Mover::kinematics(const State& state, const Environment& environment, double time,
-                             int object) const {
+                               int object) const {
   return std::visit(
       [&]<class Model>(const Model& model) {
         return model.kinematics(std::get<StateOf<Model>>(state).state, environment, time, object);

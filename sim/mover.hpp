@@ -47,7 +47,7 @@ class Mover {
   void advance(State& state, const Environment& environment, double from, double to) const;
 
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
-                        int object) const;
+                          int object) const;
   RigidBody body(const State& state, int index) const;
   void adopt(State& state, const RigidBody& body) const;
 

@@ -143,16 +143,14 @@ struct SolidBox {
   template <class Visitor>
   static void describe(Visitor& v) {
     describe_material<SolidBox>(v);
-    v.field("center", &SolidBox::center,
-            {.unit = "m",
-             .meaning = "of the box",
-             .required = true,
-             .minimum = -1e5,
-             .maximum = 1e5});
+    v.field(
+        "center", &SolidBox::center,
+        {.unit = "m", .meaning = "of the box", .required = true, .minimum = -1e5, .maximum = 1e5});
     v.field("size", &SolidBox::size,
             {.unit = "m", .meaning = "width and height", .minimum = 0.01, .maximum = 1e4});
-    v.field("angle_deg", &SolidBox::angle_deg,
-            {.unit = "deg", .meaning = "by which it is turned", .minimum = -360.0, .maximum = 360.0});
+    v.field(
+        "angle_deg", &SolidBox::angle_deg,
+        {.unit = "deg", .meaning = "by which it is turned", .minimum = -360.0, .maximum = 360.0});
   }
 };
 

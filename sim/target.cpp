@@ -236,9 +236,8 @@ class ProblemFinder {
   /// Whether the carrier is under way when it should release the target.
   static bool is_there(const Target& carrier, const Target& target) {
     const double end = carrier.disappears.value_or(std::numeric_limits<double>::infinity());
-    return target.appears < end &&
-           (carrier.appears < target.appears ||
-            (carrier.appears == target.appears && !carrier.released_by));
+    return target.appears < end && (carrier.appears < target.appears ||
+                                    (carrier.appears == target.appears && !carrier.released_by));
   }
 
   Spelled spelled_;

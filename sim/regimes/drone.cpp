@@ -82,8 +82,8 @@ Vec2 DroneModel::wanted_velocity(const FlightState& state, double time) const {
   const Vec2 way = place - state.position;
   const double distance = way.norm();
   // Fast enough to arrive soon, slow enough to stop there with half of the acceleration.
-  const double speed = std::min({drone_.speed, distance / kApproachTime,
-                                 std::sqrt(drone_.acceleration * distance)});
+  const double speed =
+      std::min({drone_.speed, distance / kApproachTime, std::sqrt(drone_.acceleration * distance)});
   return distance > 0.0 ? Vec2(speed / distance * way) : Vec2::Zero();
 }
 
@@ -101,11 +101,12 @@ FlightRate DroneModel::rate(const FlightState& state, const Environment& environ
   if (gravity == 0.0) return {shortened_to(kStandardGravity * tan_max_tilt_, wanted) + drag, 0.0};
 
   const double upwards = std::max(wanted.y(), 0.1 * gravity);
-  const double tilt =
-      std::clamp(portable::atan2(-wanted.x(), upwards), -max_tilt_, max_tilt_);
+  const double tilt = std::clamp(portable::atan2(-wanted.x(), upwards), -max_tilt_, max_tilt_);
   const portable::SinCos angle = portable::sin_cos(state.angle);
   const Vec2 axis(-angle.sin, angle.cos);
-  const double thrust = std::clamp(wanted.dot(axis), 0.0, drone_.max_thrust * gravity);
+  // What is wanted upwards comes first: a tilt at its limit must not make the drone climb.
+  const double thrust =
+      std::clamp(wanted.y() / std::max(angle.cos, 0.1), 0.0, drone_.max_thrust * gravity);
   return {thrust * axis + drag + environment.gravity(),
           drone_.attitude_rate * drone_.attitude_rate * (tilt - state.angle) -
               2.0 * drone_.attitude_damping * drone_.attitude_rate * state.spin};
@@ -140,8 +141,8 @@ void DroneModel::advance(State& state, const Environment& environment, double fr
   }
 }
 
-PlanarMotion DroneModel::kinematics(const State& state, const Environment& environment,
-                                    double time, int) const {
+PlanarMotion DroneModel::kinematics(const State& state, const Environment& environment, double time,
+                                    int) const {
   return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
 }
 

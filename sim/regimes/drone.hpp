@@ -64,8 +64,8 @@ class DroneModel;
 /// an autopilot whose attitude loop answers as a second-order system,
 ///   m dv/dt = T n(θ) + m g − ½ ρ C_d A |u| u,   n = (−sin θ, cos θ),  u = v − w
 ///   d²θ/dt² = ω² (θ_c − θ) − 2 ζ ω dθ/dt.
-/// The velocity loop asks for a = (v_c − v)/τ, at most `acceleration`, and knows the drag; θ_c and T
-/// follow from it (Mahony, Kumar & Corke 2012). Seen from above, without gravity, the tilt is out
+/// The velocity loop asks for a = (v_c − v)/τ, at most `acceleration`, and knows the drag; θ_c and
+/// T follow from it (Mahony, Kumar & Corke 2012). Seen from above, without gravity, the tilt is out
 /// of the picture: the horizontal force m g₀ tan θ acts at once, up to that of the largest tilt.
 struct Drone {
   static constexpr std::string_view kind = "drone";
@@ -105,28 +105,31 @@ struct Drone {
              .maximum = 1e5});
     v.field("velocity", &Drone::velocity,
             {.unit = "m/s", .meaning = "at the start", .minimum = -100.0, .maximum = 100.0});
-    v.field("plan", &Drone::plan,
-            {.meaning = "orders, in the order of time", .max_items = 1000});
+    v.field("plan", &Drone::plan, {.meaning = "orders, in the order of time", .max_items = 1000});
     v.field("mass", &Drone::mass,
             {.unit = "kg", .meaning = "with everything on it", .minimum = 0.01, .maximum = 1e3});
     v.field("radius", &Drone::radius,
-            {.unit = "m", .meaning = "from the centre to the rotor tips", .minimum = 0.02,
+            {.unit = "m",
+             .meaning = "from the centre to the rotor tips",
+             .minimum = 0.02,
              .maximum = 10.0});
     v.field("drag_area", &Drone::drag_area,
             {.unit = "m^2",
              .meaning = "drag coefficient times frontal area",
              .minimum = 0.0,
              .maximum = 100.0});
-    v.field("speed", &Drone::speed,
-            {.unit = "m/s", .meaning = "towards a place of the plan", .above = 0.0,
-             .maximum = 100.0});
+    v.field(
+        "speed", &Drone::speed,
+        {.unit = "m/s", .meaning = "towards a place of the plan", .above = 0.0, .maximum = 100.0});
     v.field("acceleration", &Drone::acceleration,
             {.unit = "m/s^2",
              .meaning = "the most that the autopilot asks for",
              .minimum = 0.1,
              .maximum = 50.0});
     v.field("max_tilt_deg", &Drone::max_tilt_deg,
-            {.unit = "deg", .meaning = "the autopilot tilts no farther", .minimum = 1.0,
+            {.unit = "deg",
+             .meaning = "the autopilot tilts no farther",
+             .minimum = 1.0,
              .maximum = 80.0});
     v.field("max_thrust", &Drone::max_thrust,
             {.unit = "1", .meaning = "largest thrust / weight", .minimum = 1.05, .maximum = 10.0});

@@ -9,8 +9,7 @@ JugglingPattern::JugglingPattern(const Juggling& juggling, const Vec2& from, con
 double JugglingPattern::end_of(int phase) const {
   const int throws = phase / 2;
   const double thrown = begin_ + throws * (juggling_.flight + juggling_.hold);
-  return is_flight(phase) ? thrown + juggling_.flight
-                          : thrown + juggling_.flight + juggling_.hold;
+  return is_flight(phase) ? thrown + juggling_.flight : thrown + juggling_.flight + juggling_.hold;
 }
 
 PlanarMotion JugglingPattern::throw_at(int phase) const {

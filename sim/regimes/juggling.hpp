@@ -24,10 +24,12 @@ struct Juggling {
              .required = true,
              .minimum = -1e5,
              .maximum = 1e5});
-    v.field("flight", &Juggling::flight,
-            {.unit = "s", .meaning = "from a throw to the catch", .minimum = 0.05, .maximum = 60.0});
-    v.field("hold", &Juggling::hold,
-            {.unit = "s", .meaning = "from a catch to the throw", .minimum = 0.05, .maximum = 60.0});
+    v.field(
+        "flight", &Juggling::flight,
+        {.unit = "s", .meaning = "from a throw to the catch", .minimum = 0.05, .maximum = 60.0});
+    v.field(
+        "hold", &Juggling::hold,
+        {.unit = "s", .meaning = "from a catch to the throw", .minimum = 0.05, .maximum = 60.0});
   }
 };
 

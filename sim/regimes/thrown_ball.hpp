@@ -211,7 +211,7 @@ class BallModel {
 
   ThrownBall ball_;
   RoundBody round_;
-  double spin_;  // with which it is thrown [rad/s]
+  double spin_;          // with which it is thrown [rad/s]
   double area_to_mass_;  // π r² / 2m [m²/kg]
 };
 

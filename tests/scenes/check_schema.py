@@ -17,7 +17,10 @@ BEYOND_A_SCHEMA = {
     "name_with_a_slash", "odd_video_size", "repeated_sensor_name", "repeated_target_name",
     "series_repeated_filter_name", "series_truth_of_another_length", "train_drive_without_time",
     "unstable_gains", "video_after_the_end", "video_follows_nobody", "video_from_after_to",
-    "empty_name", "long_text", "balls_inside_each_other",
+    "empty_name", "long_text", "balls_inside_each_other", "camera_sees_the_horizon",
+    "nearest_target_that_is_not_there", "sector_the_wrong_way_round", "ball_inside_a_box",
+    "below_the_ground", "drone_plan_backwards", "ground_profile_backwards", "juggled_with_a_velocity",
+    "released_by_nobody", "released_too_early", "too_many_copies",
     # YAML's own matters, and numbers that only a YAML 1.1 reader takes for numbers:
     "anchor_and_alias", "duplicate_key", "merge_key", "number_with_leading_zero", "number_in_hex",
     "number_with_plus", "number_with_underscore", "not_finite", "second_document", "tag",

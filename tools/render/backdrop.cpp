@@ -30,8 +30,8 @@ class Backdrop {
     const std::vector<Vec2> edge = edge_of_ground();
     for (std::size_t i = 1; i < edge.size(); ++i) {
       const double depth = std::min({world_.min.y(), edge[i - 1].y(), edge[i].y()});
-      canvas_.polygon({view_.to_pixel(edge[i - 1]), view_.to_pixel(edge[i]),
-                       at(edge[i].x(), depth), at(edge[i - 1].x(), depth)},
+      canvas_.polygon({view_.to_pixel(edge[i - 1]), view_.to_pixel(edge[i]), at(edge[i].x(), depth),
+                       at(edge[i - 1].x(), depth)},
                       dark::kGround);
     }
     for (const SolidBox& box : scene_.boxes) canvas_.polygon(outline_of(box), dark::kGround);

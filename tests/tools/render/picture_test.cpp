@@ -110,9 +110,8 @@ TEST(Picture, SurvivesPositionsThatAreNotInThePicture) {
   scene.title = std::string(4000, 'x') + "\xFF\x1b<script>";
   scene.objects[0].name = scene.title;
   for (const double bad : {kNan, 1e300, -1e18, 1e7}) {
-    for (const Outline::Shape shape :
-         {Outline::Shape::kBox, Outline::Shape::kDisc, Outline::Shape::kBalloon,
-          Outline::Shape::kDrone}) {
+    for (const Outline::Shape shape : {Outline::Shape::kBox, Outline::Shape::kDisc,
+                                       Outline::Shape::kBalloon, Outline::Shape::kDrone}) {
       scene.objects[0].outline = {shape, 25.0, 3.0};
       VideoFrame frame = ball_at({bad, 50.0});
       frame.wind = {{Vec2(bad, bad), Vec2(bad, bad)}};
