@@ -32,20 +32,19 @@ TEST_P(Refusal, NamesWhatIsWrongAndLeavesNothingBehind) {
 
 INSTANTIATE_TEST_SUITE_P(
     OfOptions, Refusal,
-    ::testing::Values(Wrong{"ghtrack", 2, "subcommand"},
-                      Wrong{"ghtrack rum x", 2, "did you mean 'run'?"},
-                      Wrong{"ghtrack run " + kScene + " --sed 3", 2, "did you mean '--seed'?"},
-                      Wrong{"ghtrack run " + kScene + " --seed many", 2, "--seed"},
-                      Wrong{"ghtrack run", 2, "SCENE is required"},
-                      Wrong{"ghtrack run " + kScene + " --duration -1", 2, "duration"},
-                      Wrong{"ghtrack run " + kScene + " --set targets[99].name=x", 2,
-                            "targets[99]"},
-                      Wrong{"ghtrack run missing.yaml", 2, "missing.yaml"},
-                      Wrong{"ghtrack check " + kScene + " missing.yaml", 2, "missing.yaml"},
-                      Wrong{"ghtrack video " + kScene + " -o 'a:b.mp4'", 2, "a:b.mp4"},
-                      Wrong{"ghtrack video " + kScene + " -o tcp://127.0.0.1/x.mp4", 2, "file name"},
-                      Wrong{"ghtrack video " + kScene + " -o x.mp4 --size 321x241", 2, "even"},
-                      Wrong{"ghtrack video " + kScene + " -o x.exe", 2, "mp4"}));
+    ::testing::Values(
+        Wrong{"ghtrack", 2, "subcommand"}, Wrong{"ghtrack rum x", 2, "did you mean 'run'?"},
+        Wrong{"ghtrack run " + kScene + " --sed 3", 2, "did you mean '--seed'?"},
+        Wrong{"ghtrack run " + kScene + " --seed many", 2, "--seed"},
+        Wrong{"ghtrack run", 2, "SCENE is required"},
+        Wrong{"ghtrack run " + kScene + " --duration -1", 2, "duration"},
+        Wrong{"ghtrack run " + kScene + " --set targets[99].name=x", 2, "targets[99]"},
+        Wrong{"ghtrack run missing.yaml", 2, "missing.yaml"},
+        Wrong{"ghtrack check " + kScene + " missing.yaml", 2, "missing.yaml"},
+        Wrong{"ghtrack video " + kScene + " -o 'a:b.mp4'", 2, "a:b.mp4"},
+        Wrong{"ghtrack video " + kScene + " -o tcp://127.0.0.1/x.mp4", 2, "file name"},
+        Wrong{"ghtrack video " + kScene + " -o x.mp4 --size 321x241", 2, "even"},
+        Wrong{"ghtrack video " + kScene + " -o x.exe", 2, "mp4"}));
 
 INSTANTIATE_TEST_SUITE_P(
     OfTheEnvironment, Refusal,

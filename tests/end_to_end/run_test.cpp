@@ -74,6 +74,61 @@ TEST_F(Run, RepeatsItselfByteForByteAlsoFromTheResolvedScene) {
   }
 }
 
+nlohmann::json metrics_of(const fs::path& file) { return nlohmann::json::parse(contents(file)); }
+
+/// Starts a run of an hour, stops it when it has written something, and says its exit code.
+Outcome stopped_run(const fs::path& folder, const std::string& signal, const std::string& options) {
+  return shell("ghtrack run " + quoted(scene_file("three_regimes.yaml")) + " -o results " +
+                   options +
+                   " & pid=$!\n"
+                   "while [ ! -s results/truth.csv.partial ] && kill -0 $pid; do sleep 0.1; done\n"
+                   "sleep 1; kill -" +
+                   signal + " $pid; wait $pid",
+               folder);
+}
+
+// Property: a signal ends a run with 128 + N; what was done is whole, and marked as partial.
+TEST_F(Run, KeepsWhatAnInterruptedRunHasDone) {
+  const std::string options = "--duration 20000 --no-video";
+  for (const auto& [signal, exit_code] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
+    const Outcome run = stopped_run(folder(), signal, options);
+    ASSERT_EQ(run.exit_code, exit_code) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("interrupted; results holds what was done so far"));
+  }
+  const fs::path results = folder() / "results";
+  EXPECT_THAT(names_in(results),
+              ElementsAre("detections.csv.partial", "metrics.json.partial", "origins.csv.partial",
+                          "tracks.csv.partial", "truth.csv.partial"));
+  EXPECT_EQ(metrics_of(results / "metrics.json.partial").at("partial"), true);
+  for (const auto& row : csv_rows(results / "truth.csv.partial")) ASSERT_EQ(row.size(), 10U);
+  for (const auto& row : csv_rows(results / "tracks.csv.partial")) ASSERT_EQ(row.size(), 16U);
+}
+
+// Property: the video of an interrupted run can be played.
+TEST_F(Run, KeepsAVideoThatCanBePlayed) {
+  const Outcome run =
+      stopped_run(folder(), "TERM", "--duration 2000 --video --set video.size=[320,180]");
+  ASSERT_EQ(run.exit_code, 143) << run.err;
+  ASSERT_FALSE(fs::exists(folder() / "results" / "video.mp4"));
+  const Outcome probe = shell(
+      "ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 "
+      "results/video.partial.mp4",
+      folder());
+  EXPECT_EQ(probe.exit_code, 0) << probe.err;
+  EXPECT_GT(std::stoi(probe.out), 0);
+}
+
+// Property: two scenes that would write into one folder are refused before anything runs.
+TEST_F(Run, RefusesTwoScenesOfOneName) {
+  const std::string scene = contents(scene_file("throwing.yaml"));
+  write(folder() / "a.yaml", scene);
+  write(folder() / "b.yaml", scene);
+  const Outcome run = ghtrack("run a.yaml b.yaml");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("'a.yaml' and 'b.yaml' would both write into 'out/throwing'"));
+  EXPECT_FALSE(fs::exists(folder() / "out"));
+}
+
 /// The rows of a CSV file whose cell in a column has some value, without the columns that number
 /// the objects.
 std::vector<std::vector<std::string>> rows_of_object(const fs::path& file,
@@ -115,16 +170,12 @@ TEST_F(Run, AddingATargetChangesNoOtherTargetsTruthOrNoise) {
   }
 }
 
-nlohmann::json metrics_of(const fs::path& folder) {
-  return nlohmann::json::parse(contents(folder / "metrics.json"));
-}
-
 // Property: the point of the exercise. Every train and ball of every shipped scene is estimated
 // better than it is measured.
 TEST_F(Run, EstimatesOfTrainsAndBallsBeatTheRawMeasurements) {
   for (const std::string& name : kShipped) {
     ASSERT_EQ(ghtrack("run " + quoted(scene_file(name)) + " -o results --no-video").exit_code, 0);
-    const nlohmann::json metrics = metrics_of(folder() / "results");
+    const nlohmann::json metrics = metrics_of(folder() / "results" / "metrics.json");
     ASSERT_GE(metrics.at("objects").size(), 6U);
     for (const auto& object : metrics.at("objects")) {
       if (object.at("regime") == "balloon") continue;
@@ -151,7 +202,7 @@ tracker:
 )");
   const Outcome run = ghtrack("run steady.yaml -o results");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json metrics = metrics_of(folder() / "results");
+  const nlohmann::json metrics = metrics_of(folder() / "results" / "metrics.json");
   ASSERT_EQ(metrics.at("objects").size(), 2U);
   for (const auto& object : metrics.at("objects")) {
     const double measured = object.at("rmse_position");

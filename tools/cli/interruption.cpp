@@ -19,7 +19,7 @@ void watch_signals() {
 }
 
 void stop_if_interrupted() {
-  if (last_signal != 0) throw Interrupted{static_cast<int>(last_signal)};
+  if (last_signal != 0) throw Interrupted{.signal = static_cast<int>(last_signal)};
 }
 
 }  // namespace ghtrack::cli

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <string>
+
 namespace ghtrack::cli {
 
 /// Thrown out of a run that a signal asked to stop.
 struct Interrupted {
   int signal;
+  std::string remark = "nothing was written";  // what is left of the run
 };
 
 /// From now on SIGINT and SIGTERM are remembered instead of ending the process at once, and a file

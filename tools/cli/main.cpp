@@ -291,7 +291,8 @@ int guarded_main(int argc, char** argv) try {
 } catch (const render::RequestError& error) {
   return report(kInputWrong, fmt::format("ghtrack: error: {}", error.what()).c_str());
 } catch (const Interrupted& interrupted) {
-  return report(128 + interrupted.signal, "ghtrack: interrupted; nothing was written");
+  return report(128 + interrupted.signal,
+                fmt::format("ghtrack: interrupted; {}", interrupted.remark).c_str());
 } catch (const std::filesystem::filesystem_error& error) {
   return report(kEnvironmentFailed, fmt::format("ghtrack: error: {}", error.what()).c_str());
 } catch (const std::system_error& error) {  // only printing throws it

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -14,6 +14,7 @@
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/run_series.hpp"
 #include "tools/cli/scene_source.hpp"
+#include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_frames.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/pipeline/simulation.hpp"
@@ -30,7 +31,8 @@ std::vector<std::string> sensor_names(const WorldScene& scene) {
   return names;
 }
 
-/// Simulates, senses, tracks and scores; every file appears complete or not at all.
+/// Simulates, senses, tracks and scores; every file appears under its name when it is complete.
+/// What an interrupted run has done so far is kept in partial files.
 void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bool> video,
                const Manners& manners) {
   World world = make_world(scene);
@@ -64,7 +66,19 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
       frames->add_frame(truth);
     };
   }
-  const RunCounts counts = ghtrack::run(scene, world, listener);
+  RunCounts counts;
+  try {
+    counts = ghtrack::run(scene, world, listener);
+  } catch (Interrupted& interrupted) {
+    files.keep_partial();
+    nlohmann::ordered_json so_far = to_json(metrics.report());
+    so_far["partial"] = true;
+    write_partial_file(folder / "metrics.json", so_far.dump(2) + "\n");
+    if (frames) frames->writer().keep_partial();
+    interrupted.remark =
+        fmt::format("{} holds what was done so far, in files named .partial", folder.string());
+    throw;
+  }
 
   RunReport report = metrics.report();
   report.counts = counts;
@@ -75,6 +89,30 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   fmt::print("{}", to_table(report));
 }
 
+const std::string& name_of(const Scene& scene) {
+  return std::visit([](const auto& s) -> const std::string& { return s.name; }, scene);
+}
+
+/// Where the results of each scene go. No two scenes may share a folder.
+std::vector<fs::path> folders_of(const RunOptions& options, const std::vector<Scene>& scenes) {
+  const std::vector<std::string>& files = options.scene.files;
+  std::vector<fs::path> folders;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const fs::path by_name = default_folder(name_of(scenes[i]), files[i]);
+    folders.push_back(options.output.empty() ? by_name
+                      : scenes.size() == 1   ? fs::path(options.output)
+                                             : options.output / by_name.filename());
+    const auto same = std::find(folders.begin(), folders.end() - 1, folders.back());
+    if (same == folders.end() - 1) continue;
+    throw UsageError(fmt::format(
+        "run: '{}' and '{}' would both write into '{}': give them different names, or run them one "
+        "by one with -o",
+        files[static_cast<std::size_t>(same - folders.begin())], files[i],
+        folders.back().string()));
+  }
+  return folders;
+}
+
 }  // namespace
 
 int run(const RunOptions& options, const Manners& manners) {
@@ -82,20 +120,17 @@ int run(const RunOptions& options, const Manners& manners) {
   for (const std::string& file : options.scene.files) {
     scenes.push_back(load_scene(file, options.scene));
   }
+  const std::vector<fs::path> folders = folders_of(options, scenes);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const std::string& name = std::visit(
-        [](const auto& s) -> const auto& { return s.name; }, scenes[i]);
-    const fs::path by_name = default_folder(name, options.scene.files[i]);
-    const fs::path folder = options.output.empty() ? by_name
-                            : scenes.size() == 1   ? fs::path(options.output)
-                                                   : options.output / by_name.filename();
-    make_folder(folder);
+    make_folder(folders[i]);
     if (const auto* world = std::get_if<WorldScene>(&scenes[i])) {
-      run_world(*world, folder, options.video, manners);
+      run_world(*world, folders[i], options.video, manners);
     } else {
-      run_series(std::get<SeriesScene>(scenes[i]), folder);
+      run_series(std::get<SeriesScene>(scenes[i]), folders[i]);
     }
-    if (!manners.quiet) fmt::print(stderr, "{}: results in {}\n", name, folder.string());
+    if (!manners.quiet) {
+      fmt::print(stderr, "{}: results in {}\n", name_of(scenes[i]), folders[i].string());
+    }
   }
   return 0;
 }

@@ -90,7 +90,14 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
     stop_if_interrupted();
     frames.add_frame(truth);
   };
-  ghtrack::run(*scene, world, listener);
+  try {
+    ghtrack::run(*scene, world, listener);
+  } catch (Interrupted& interrupted) {
+    frames.writer().keep_partial();
+    interrupted.remark = fmt::format("{} holds what was done so far, in a file named .partial",
+                                     path.parent_path().string());
+    throw;
+  }
   if (!options.poster.empty()) frames.writer().write_poster(options.poster);
   frames.writer().finish();
   if (!manners.quiet) fmt::print(stderr, "{}: {}\n", scene->name, path.string());

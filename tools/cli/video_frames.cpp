@@ -7,6 +7,7 @@
 #include "sensors/view_geometry.hpp"
 #include "sim/regimes/rail_line.hpp"
 #include "sim/regimes/train.hpp"
+#include "tools/cli/interruption.hpp"
 #include "tools/pipeline/simulation.hpp"
 
 namespace ghtrack::cli {
@@ -44,7 +45,7 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world) {
   if (scene.video && scene.video->region.size() == 2) {
     drawing.world = render::Rectangle{scene.video->region[0], scene.video->region[1]};
   } else {
-    drawing.world = render::bounding_rectangle(places_visited(scene));
+    drawing.world = render::bounding_rectangle(places_visited(scene, stop_if_interrupted));
   }
   drawing.ground = scene.environment.ground;
   drawing.walls = scene.environment.walls;

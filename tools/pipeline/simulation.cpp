@@ -155,11 +155,12 @@ RunCounts run(const WorldScene& scene, World& world, const Listener& listener) {
   return Run(scene, world, listener).to_the_end();
 }
 
-std::vector<Vec2> places_visited(const WorldScene& scene) {
+std::vector<Vec2> places_visited(const WorldScene& scene, const std::function<void()>& on_sample) {
   World world = make_world(scene);
   std::vector<Vec2> places;
   const auto samples = static_cast<std::int64_t>(std::floor(scene.duration * kExtentRate));
   for (std::int64_t i = 0; i <= samples; ++i) {
+    on_sample();
     for (const BodyPose& body : world.sample(static_cast<double>(i) / kExtentRate).bodies) {
       places.push_back(body.position);
     }

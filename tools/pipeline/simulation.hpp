@@ -41,6 +41,7 @@ World make_world(const WorldScene& scene);
 
 /// Everywhere that the objects of a scene go, for fitting a picture: positions of all their parts
 /// ten times a second.
-std::vector<Vec2> places_visited(const WorldScene& scene);
+/// @param on_sample  called at each of those instants; may throw to give up
+std::vector<Vec2> places_visited(const WorldScene& scene, const std::function<void()>& on_sample);
 
 }  // namespace ghtrack

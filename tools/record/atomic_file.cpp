@@ -72,6 +72,11 @@ void AtomicFile::commit() {
   }
 }
 
+void AtomicFile::keep_partial() {
+  flush();
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+}
+
 void AtomicFile::fail(int error) const {
   throw WriteError(path_.string() +
                    ": error: cannot write: " + std::generic_category().message(error));
@@ -81,6 +86,12 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile file(path);
   file.write(bytes);
   file.commit();
+}
+
+void write_partial_file(const std::filesystem::path& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.keep_partial();
 }
 
 }  // namespace ghtrack

@@ -7,9 +7,10 @@
 namespace ghtrack {
 
 /// A file that appears under its name only when it is complete: it is written beside it as
-/// `<name>.partial`, flushed to the disk and renamed by commit(). Without commit() nothing is left.
-/// A target that exists and is no regular file, such as a pipe or /dev/stdout, is written directly.
-/// Every failure throws WriteError, and none is lost in a destructor.
+/// `<name>.partial`, flushed to the disk and renamed by commit(). Without commit() or
+/// keep_partial() nothing is left. A target that exists and is no regular file, such as a pipe or
+/// /dev/stdout, is written directly. Every failure throws WriteError, and none is lost in a
+/// destructor.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -25,6 +26,9 @@ class AtomicFile {
   /// Completes the file and gives it its name. The last call.
   void commit();
 
+  /// Keeps what has been written so far as `<name>.partial`. The last call.
+  void keep_partial();
+
   const std::filesystem::path& path() const { return path_; }
 
  private:
@@ -39,5 +43,8 @@ class AtomicFile {
 
 /// Writes a whole file at once.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Writes `<name>.partial` at once: what an interrupted run has to say.
+void write_partial_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace ghtrack

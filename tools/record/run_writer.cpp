@@ -34,6 +34,12 @@ void TrackWriter::commit() {
   file_.commit();
 }
 
+void TrackWriter::keep_partial() {
+  file_.write(pending_.text());
+  pending_.clear();
+  file_.keep_partial();
+}
+
 RunWriter::RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
                      std::vector<std::string> sensors)
     : objects_(std::move(objects)),
@@ -54,6 +60,13 @@ void RunWriter::commit() {
   detections_.commit();
   origins_.commit();
   tracks_.commit();
+}
+
+void RunWriter::keep_partial() {
+  truth_.keep_partial();
+  detections_.keep_partial();
+  origins_.keep_partial();
+  tracks_.keep_partial();
 }
 
 void RunWriter::write_truth(const TruthSnapshot& truth) {

@@ -19,6 +19,7 @@ class TrackWriter {
   explicit TrackWriter(std::filesystem::path path);
   void add(const TrackSnapshot& snapshot);
   void commit();
+  void keep_partial();
 
  private:
   AtomicFile file_;
@@ -27,7 +28,8 @@ class TrackWriter {
 };
 
 /// Writes what happened in a run, scan by scan, into a folder: truth.csv, detections.csv,
-/// origins.csv and tracks.csv. The files get their names by commit(); without it none is left.
+/// origins.csv and tracks.csv. The files get their names by commit(); without it, or
+/// keep_partial(), none is left.
 class RunWriter {
  public:
   /// @param folder   must exist
@@ -44,6 +46,9 @@ class RunWriter {
   void add_tracks(const TrackSnapshot& tracks);
 
   void commit();
+
+  /// Keeps what an interrupted run has written as `<name>.partial`, whole rows only.
+  void keep_partial();
 
  private:
   void write_truth(const TruthSnapshot& truth);

@@ -15,6 +15,7 @@ class VideoSink {
   virtual void add_frame(const VideoFrame& frame) = 0;
   virtual void write_poster(const std::filesystem::path& path) = 0;
   virtual void finish() = 0;
+  virtual void keep_partial() = 0;
 };
 
 /// What the loadable module `ghtrack_render.so` offers. All of OpenCV lies behind it, because its

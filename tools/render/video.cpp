@@ -82,4 +82,6 @@ void VideoWriter::write_poster(const std::filesystem::path& path) {
 
 void VideoWriter::finish() { sink_->finish(); }
 
+void VideoWriter::keep_partial() { sink_->keep_partial(); }
+
 }  // namespace ghtrack::render

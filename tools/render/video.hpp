@@ -44,8 +44,8 @@ struct VideoOptions {
   std::optional<double> to;  // [s] scene time at which the video ends; the scene's end if absent
   Layers layers = kDefaultLayers;
   Encoder encoder = Encoder::kAutomatic;
-  std::optional<ObjectId> follow;    // keeps this object in the middle of the picture
-  double follow_width = 40.0;        // [m] of the world across the picture when following
+  std::optional<ObjectId> follow;  // keeps this object in the middle of the picture
+  double follow_width = 40.0;      // [m] of the world across the picture when following
 };
 
 /// A scene sensor, as far as it is drawn.
@@ -127,7 +127,7 @@ class VideoSink;
 
 /// Draws frames and writes them to a file. Until finish() has verified the file (its header counts
 /// as many frames as were added and the last one can be decoded) it is called
-/// `<stem>.partial.<extension>`; without finish() the partial file is removed.
+/// `<stem>.partial.<extension>`; without finish() or keep_partial() that file is removed.
 /// The same frames give the same bytes (mkv, webm: the same decoded frames).
 class VideoWriter {
  public:
@@ -148,6 +148,11 @@ class VideoWriter {
   /// Completes, verifies and names the file. No frame may follow.
   /// @throws OutputError if the file is not whole, with the reason; the partial file is removed
   void finish();
+
+  /// Completes and verifies what an interrupted run has drawn so far; it can be played, but keeps
+  /// its partial name. Without a frame nothing is left. No frame may follow.
+  /// @throws OutputError as finish()
+  void keep_partial();
 
  private:
   std::unique_ptr<VideoSink> sink_;

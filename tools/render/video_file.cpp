@@ -95,7 +95,7 @@ class VideoFile : public VideoSink {
     encoding_.reset();
     encoder_.reset();
     std::error_code ignored;
-    if (!is_complete_) fs::remove(partial_, ignored);
+    if (!is_wanted_) fs::remove(partial_, ignored);
   }
 
   void add_frame(const VideoFrame& frame) override {
@@ -112,21 +112,32 @@ class VideoFile : public VideoSink {
 
   void finish() override {
     if (frames_ == 0) throw OutputError("cannot write '" + path_.string() + "': it has no frames");
+    complete();
+    commit_file(partial_, path_);
+    is_wanted_ = true;
+  }
+
+  void keep_partial() override {
+    if (frames_ == 0) return;
+    complete();
+    is_wanted_ = true;
+  }
+
+ private:
+  /// Makes a whole, verified video of the frames so far.
+  void complete() {
     encoding_->add(image_);
     encoding_->finish();
     encoder_->close();
     if (path_.extension() != ".png") verify_video(partial_, frames_);
-    commit_file(partial_, path_);
-    is_complete_ = true;
   }
 
- private:
   fs::path path_;
   fs::path partial_;
   Picture picture_;
   cv::Mat image_;
   std::size_t frames_ = 0;
-  bool is_complete_ = false;
+  bool is_wanted_ = false;
   std::unique_ptr<ImageEncoder> encoder_;
   std::unique_ptr<EncodingThread> encoding_;
 };
