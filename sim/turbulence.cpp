@@ -74,20 +74,35 @@ Turbulence::Turbulence(const TurbulenceConfig& config, const Vec2& mean_wind, st
              make_axis(Vec2::UnitY(), output, gusts->correlation_time)};
   }
   if (const auto* dryden = std::get_if<Dryden>(&config.model)) {
-    if (dryden->intensity == 0.0) return;
-    constexpr double kFeet = 0.3048;
-    const double mean = mean_wind.norm();
-    const double speed = dryden->speed.value_or(mean);
-    const double height = dryden->height / kFeet;
-    const double shape = 0.177 + 0.000823 * height;
-    const double along_length = height / portable::pow(shape, 1.2) * kFeet;
-    const double along_sigma = dryden->intensity * speed;
-    const double across_sigma = along_sigma * portable::pow(shape, 0.4);
-    const Vec2 along = mean > 0.0 ? Vec2(mean_wind / mean) : Vec2::UnitX();
-    const Vec2 across(-along.y(), along.x());
-    spacing_ = along_length;
-    axes_ = {make_axis(along, along_sigma * kLongitudinal, along_length / speed),
-             make_axis(across, across_sigma * kTransverse, dryden->height / speed)};
+    constexpr std::array<DrydenPart, 1> kWhole{{{1.0, 1.0}}};
+    add_low_altitude(*dryden, mean_wind, kWhole, 1.0);
+  }
+  if (const auto* karman = std::get_if<VonKarman>(&config.model)) {
+    add_low_altitude(*karman, mean_wind, kVonKarmanParts, kVonKarmanLength);
+  }
+}
+
+void Turbulence::add_low_altitude(const LowAltitude& turbulence, const Vec2& mean_wind,
+                                  std::span<const DrydenPart> parts, double length_factor) {
+  if (turbulence.intensity == 0.0) return;
+  constexpr double kFeet = 0.3048;
+  const double mean = mean_wind.norm();
+  const double speed = turbulence.speed.value_or(mean);
+  const double height = turbulence.height / kFeet;
+  const double shape = 0.177 + 0.000823 * height;
+  const double along_length = height / portable::pow(shape, 1.2) * kFeet;
+  const double along_sigma = turbulence.intensity * speed;
+  const double across_sigma = along_sigma * portable::pow(shape, 0.4);
+  const Vec2 along = mean > 0.0 ? Vec2(mean_wind / mean) : Vec2::UnitX();
+  const Vec2 across(-along.y(), along.x());
+  spacing_ = along_length;
+  for (const DrydenPart& part : parts) {
+    const double amplitude = std::sqrt(part.weight);
+    const double factor = length_factor / part.rate;
+    axes_.push_back(
+        make_axis(along, amplitude * along_sigma * kLongitudinal, factor * along_length / speed));
+    axes_.push_back(make_axis(across, amplitude * across_sigma * kTransverse,
+                              factor * turbulence.height / speed));
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <variant>
@@ -51,31 +53,27 @@ struct OrnsteinUhlenbeck {
   }
 };
 
-/// Dryden turbulence at low altitude, MIL-F-8785C: with the height h in feet
+/// Turbulence of the lower atmosphere: lengths and intensities of MIL-F-8785C at low altitude, with
+/// the height h in feet
 ///   L_w = h,  L_u = h / (0.177 + 0.000823 h)^1.2,  σ_w = σ_u (0.177 + 0.000823 h)^0.4.
-/// The component along the mean wind is an Ornstein–Uhlenbeck process with T = L_u / U, the one
-/// across it has the transverse spectrum, autocorrelation σ² (1 − τ/2T) exp(−τ/T), T = L_w / U.
-struct Dryden {
-  static constexpr std::string_view kind = "dryden";
-  static constexpr std::string_view about = "turbulence of the lower atmosphere after MIL-F-8785C";
-
+struct LowAltitude {
   double intensity = 0.15;
   double height = 10.0;
   std::optional<double> speed;
 
-  template <class Visitor>
-  static void describe(Visitor& v) {
-    v.field("intensity", &Dryden::intensity,
+  template <class Turbulence, class Visitor>
+  static void describe_as(Visitor& v) {
+    v.field("intensity", &Turbulence::intensity,
             {.unit = "1",
              .meaning = "standard deviation along the wind divided by the mean speed",
              .minimum = 0.0,
              .maximum = 1.0});
-    v.field("height", &Dryden::height,
+    v.field("height", &Turbulence::height,
             {.unit = "m",
              .meaning = "height whose length scales are used",
              .minimum = 3.0,
              .maximum = 300.0});
-    v.field("speed", &Dryden::speed,
+    v.field("speed", &Turbulence::speed,
             {.unit = "m/s",
              .meaning = "mean speed that carries the turbulence; left out: that of `mean`",
              .above = 0.0,
@@ -83,8 +81,46 @@ struct Dryden {
   }
 };
 
+/// The component along the mean wind is an Ornstein–Uhlenbeck process with T = L_u / U, the one
+/// across it has the transverse spectrum, autocorrelation σ² (1 − τ/2T) exp(−τ/T), T = L_w / U.
+struct Dryden : LowAltitude {
+  static constexpr std::string_view kind = "dryden";
+  static constexpr std::string_view about = "turbulence of the lower atmosphere after MIL-F-8785C";
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    describe_as<Dryden>(v);
+  }
+};
+
+/// The spectrum that measured turbulence follows, falling as ω^(−5/3):
+///   Φ_u ∝ (1 + (a L ω/U)²)^(−5/6),  Φ_w ∝ (1 + 8/3 (a L ω/U)²) (1 + (a L ω/U)²)^(−11/6),  a
+///   = 1.339.
+struct VonKarman : LowAltitude {
+  static constexpr std::string_view kind = "von-karman";
+  static constexpr std::string_view about =
+      "the same with the spectrum of von Kármán, which has more fast gusts than Dryden's";
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    describe_as<VonKarman>(v);
+  }
+};
+
+/// Von Kármán's correlation is a mixture of exponentials (a Matérn covariance with ν = 1/3 is
+/// completely monotone), so his turbulence is a sum of Dryden turbulences of several lengths: of
+/// a L / rate, with this part of the variance. Four of them keep both spectra within 2.5 % up to
+/// ω = 100 U / a L, which is 4 Hz in a gale; fitted by least squares.
+struct DrydenPart {
+  double rate;
+  double weight;
+};
+inline constexpr double kVonKarmanLength = 1.339;
+inline constexpr std::array<DrydenPart, 4> kVonKarmanParts{
+    {{1.11, 0.79908}, {5.328, 0.14392}, {25.5744, 0.03728}, {122.7571, 0.01972}}};
+
 struct TurbulenceConfig {
-  std::variant<NoTurbulence, OrnsteinUhlenbeck, Dryden> model;
+  std::variant<NoTurbulence, OrnsteinUhlenbeck, Dryden, VonKarman> model;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -120,13 +156,14 @@ class Turbulence {
 
   static constexpr int kLevels = 7;
   static constexpr int kBlock = 1 << kLevels;  // knots from one exact step to the next
+  static constexpr std::size_t kMostAxes = 2 * kVonKarmanParts.size();
 
   struct Halving {  // law of the state half-way, given those at both ends
     Eigen::Matrix2d from_left;
     Eigen::Matrix2d from_right;
     Eigen::Matrix2d spread;
   };
-  struct Axis {
+  struct Axis {  // one process; several may act along one direction
     Vec2 direction;
     Eigen::RowVector2d output;   // velocity = output × state
     Eigen::Matrix2d transition;  // over a block
@@ -135,14 +172,16 @@ class Turbulence {
   };
   struct Block {
     std::int64_t index = -1;
-    std::array<State, 2> left;   // per axis, at the beginning
-    std::array<State, 2> right;  // and at the end
+    std::array<State, kMostAxes> left;   // per axis, at the beginning
+    std::array<State, kMostAxes> right;  // and at the end
     std::array<Vec2, kBlock + 1> gusts;
   };
   struct Node {
     std::array<Block, 2> blocks;  // of even and odd index: a step may end where a block begins
   };
 
+  void add_low_altitude(const LowAltitude& turbulence, const Vec2& mean_wind,
+                        std::span<const DrydenPart> parts, double length_factor);
   static Axis make_axis(const Vec2& direction, const Eigen::RowVector2d& output, double time);
   const Block& block_at(std::uint64_t node_key, std::int64_t index);
   void start(Block& block, std::uint64_t node_key) const;

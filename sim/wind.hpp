@@ -229,10 +229,12 @@ struct WindConfig {
 
   template <class Report>
   void check(Report&& report) const {
-    const Dryden* dryden = std::get_if<Dryden>(&turbulence.model);
-    if (dryden != nullptr && !dryden->speed && mean.norm() == 0.0) {
-      report("turbulence", "Dryden turbulence needs a mean wind, or `speed`, to carry it past");
-    }
+    const auto check_carried = [&](const LowAltitude* model) {
+      if (model == nullptr || model->speed || mean.norm() > 0.0) return;
+      report("turbulence", "this turbulence needs a mean wind, or `speed`, to carry it past");
+    };
+    check_carried(std::get_if<Dryden>(&turbulence.model));
+    check_carried(std::get_if<VonKarman>(&turbulence.model));
   }
 };
 

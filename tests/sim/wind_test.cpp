@@ -112,6 +112,55 @@ TEST(Wind, HasTheSameVarianceBetweenLatticeNodes) {
   }
 }
 
+// Derived: von Kármán's spectra, in units of U/aL, against those of the sum of Dryden turbulences.
+TEST(Wind, SumsDrydenTurbulencesToVonKarmans) {
+  double weights = 0.0;
+  for (const DrydenPart& part : kVonKarmanParts) weights += part.weight;
+  EXPECT_NEAR(weights, 1.0, 1e-12);
+  const double scale = std::tgamma(5.0 / 6.0) / (std::sqrt(portable::kPi) * std::tgamma(1.0 / 3.0));
+  for (double k = 0.01; k <= 100.0; k *= 1.1) {
+    const double along = scale * std::pow(1.0 + k * k, -5.0 / 6.0);
+    const double across = 0.5 * along * (1.0 + 8.0 / 3.0 * k * k) / (1.0 + k * k);
+    double sum_along = 0.0;
+    double sum_across = 0.0;
+    for (const DrydenPart& part : kVonKarmanParts) {
+      const double x = k / part.rate;
+      const double one = part.weight / (portable::kPi * part.rate * (1.0 + x * x));
+      sum_along += one;
+      sum_across += 0.5 * one * (1.0 + 3.0 * x * x) / (1.0 + x * x);
+    }
+    EXPECT_NEAR(sum_along / along, 1.0, 0.025) << k;
+    EXPECT_NEAR(sum_across / across, 1.0, 0.025) << k;
+  }
+}
+
+// Derived: along the wind the autocorrelation is 2^(2/3)/Γ(1/3) z^(1/3) K_(1/3)(z), z = τ U/aL, and
+// the spectrum falls as f^(−5/3). Dryden's falls as f⁻².
+TEST(Wind, HasVonKarmanTurbulence) {
+  constexpr double kSpeed = 20.0;
+  constexpr double kRate = 60.0;
+  constexpr int kSamples = 1 << 17;
+  VonKarman karman;
+  karman.intensity = 0.2;
+  karman.height = 50.0;
+  const Wind wind = gusty(4, {karman}, Vec2(kSpeed, 0.0));
+  std::vector<Vec2> values = record(wind, Vec2(3.0, 10.0), kRate, kSamples);
+  for (Vec2& value : values) value.x() -= kSpeed;
+  const double feet = 50.0 / 0.3048;
+  const double length = feet / std::pow(0.177 + 0.000823 * feet, 1.2) * 0.3048;
+  const double time = 1.339 * length / kSpeed;
+  const double error = 4.0 * std::sqrt(2.0 * time * kRate / kSamples);
+  EXPECT_NEAR(mean_product(values, 0, 0) / (16.0), 1.0, error + 0.01);
+  for (const int lag : {30, 120, 480}) {
+    const double z = lag / kRate / time;
+    const double expected = std::pow(2.0, 2.0 / 3.0) / std::tgamma(1.0 / 3.0) * std::cbrt(z) *
+                            std::cyl_bessel_k(1.0 / 3.0, z);
+    EXPECT_NEAR(mean_product(values, 0, lag) / 16.0, expected, error) << lag;
+  }
+  const double corner = 1.0 / (2.0 * portable::kPi * time);
+  EXPECT_NEAR(spectral_slope(values, kRate, 8.0 * corner, 100.0 * corner), -5.0 / 3.0, 0.15);
+}
+
 // Derived: MIL-F-8785C at 10 m in 60 m/s with σ_u = 0.19 × 60: L_u = 67 m, so 1.12 s; across the
 // wind σ_w = σ_u (0.177 + 0.000823 h)^0.4 and the transverse autocorrelation (1 − τ/2T) e^(−τ/T).
 TEST(Wind, HasDrydenTurbulence) {
