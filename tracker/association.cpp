@@ -37,13 +37,15 @@ class ShortestPaths {
   struct Entry {
     double distance;
     int column;
-    bool operator>(const Entry& other) const {
-      return std::tie(distance, column) > std::tie(other.distance, other.column);
+    bool operator<(const Entry& other) const {
+      return distance < other.distance || (distance == other.distance && column < other.column);
     }
+    bool operator>(const Entry& other) const { return other < *this; }
   };
 
   /// Finds the cheapest way to give `track` a column, moving other tracks where that pays.
   void augment(int track) {
+    if (take_if_free(track, favourite(track))) return;
     heap_.clear();
     reached_.clear();
     settled_.clear();
@@ -76,6 +78,24 @@ class ShortestPaths {
       distance_[column] = kUnreached;
       is_settled_[column] = false;
     }
+  }
+
+  /// The column that is cheapest for a track, the first one of equals.
+  int favourite(int track) const {
+    Entry best{miss_cost_ - price_[detections_ + track], detections_ + track};
+    for (const Candidate& candidate : table_.row(track)) {
+      best = std::min(best, {candidate.cost - price_[candidate.detection], candidate.detection});
+    }
+    return best.column;
+  }
+
+  /// Nobody has to move for a free favourite, and no price changes: the usual case, spared a
+  /// search.
+  bool take_if_free(int track, int column) {
+    if (owner_[column] != kMissed) return false;
+    owner_[column] = track;
+    assigned_column_[track] = column;
+    return true;
   }
 
   /// Reduced costs of a row are measured from its own column, so that they are never negative.

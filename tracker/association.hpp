@@ -28,6 +28,20 @@ struct CandidateTable {
 /// Detection of a track that got none.
 inline constexpr int kMissed = -1;
 
+/// Which detection each track of a scan gets, and which track each detection.
+struct Pairing {
+  std::vector<int> detection_of;  // track, or kMissed
+  std::vector<int> track_of;      // detection, or kMissed
+
+  Pairing(std::size_t tracks, std::size_t detections)
+      : detection_of(tracks, kMissed), track_of(detections, kMissed) {}
+
+  void pair(std::size_t track, int detection) {
+    detection_of[track] = detection;
+    if (detection != kMissed) track_of[detection] = static_cast<int>(track);
+  }
+};
+
 /// Gives every track at most one detection and every detection to at most one track, so that the
 /// sum of the chosen costs, counting miss_cost for each track without a detection, is the least
 /// possible (global nearest neighbour).

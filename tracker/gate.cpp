@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace ghtrack {
 
@@ -11,19 +12,41 @@ bool is_usable(const Detection& detection) {
          r(0, 0) * r(1, 1) > r(0, 1) * r(1, 0);
 }
 
-double mahalanobis_distance(const Prediction& prediction, const Detection& detection) {
-  const Eigen::Vector2d residual = detection.position - prediction.position;
-  const Eigen::Matrix2d s = prediction.covariance + detection.covariance;
-  const double determinant = s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0);
-  const double squared =
-      (s(1, 1) * residual.x() * residual.x() - (s(0, 1) + s(1, 0)) * residual.x() * residual.y() +
-       s(0, 0) * residual.y() * residual.y()) /
-      determinant;
-  return std::sqrt(squared);
+namespace {
+
+/// rᵀ adj(S) r and det S, whose quotient is the squared Mahalanobis distance.
+struct Quotient {
+  double numerator;
+  double determinant;
+
+  Quotient(const Prediction& prediction, const Eigen::Vector2d& position,
+           const Eigen::Matrix2d& covariance) {
+    const Eigen::Vector2d residual = position - prediction.position;
+    const Eigen::Matrix2d s = prediction.covariance + covariance;
+    determinant = s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0);
+    numerator = s(1, 1) * residual.x() * residual.x() -
+                (s(0, 1) + s(1, 0)) * residual.x() * residual.y() +
+                s(0, 0) * residual.y() * residual.y();
+  }
+  double distance() const { return std::sqrt(numerator / determinant); }
+};
+
+/// What lies outside belongs to the outermost cells; what is not a number, as the place of an
+/// infinite extent, to the first.
+int cell_at(double place, int cells) {
+  if (!(place > 0.0)) return 0;
+  return place < cells ? static_cast<int>(place) : cells - 1;
 }
 
-DetectionGrid::DetectionGrid(std::span<const Detection> detections) : detections_(detections) {
+}  // namespace
+
+double mahalanobis_distance(const Prediction& prediction, const Detection& detection) {
+  return Quotient(prediction, detection.position, detection.covariance).distance();
+}
+
+DetectionGrid::DetectionGrid(std::span<const Detection> detections) {
   std::vector<int> usable;
+  usable.reserve(detections.size());
   for (int i = 0; i < static_cast<int>(detections.size()); ++i) {
     if (is_usable(detections[i])) usable.push_back(i);
   }
@@ -43,53 +66,75 @@ DetectionGrid::DetectionGrid(std::span<const Detection> detections) : detections
     cells_per_metre_[axis] = extent[axis] > 0.0 ? side / extent[axis] : 0.0;
   }
 
-  const auto cell_of = [&](int i) {
-    const Eigen::Vector2d& p = detections_[i].position;
-    return row_of(p.y()) * columns_ + column_of(p.x());
-  };
+  std::vector<int> cells;
+  cells.reserve(usable.size());
   cell_start_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (const int i : usable) ++cell_start_[cell_of(i) + 1];
+  for (const int i : usable) {
+    const Eigen::Vector2d& p = detections[i].position;
+    cells.push_back(row_of(p.y()) * columns_ + column_of(p.x()));
+    ++cell_start_[cells.back() + 1];
+  }
   for (std::size_t cell = 1; cell < cell_start_.size(); ++cell) {
     cell_start_[cell] += cell_start_[cell - 1];
   }
   members_.resize(usable.size());
   std::vector<int> next(cell_start_.begin(), cell_start_.end() - 1);
-  for (const int i : usable) members_[next[cell_of(i)]++] = i;
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    const Detection& detection = detections[usable[i]];
+    members_[next[cells[i]]++] = {detection.position, detection.covariance, usable[i]};
+  }
+  for (std::size_t cell = 1; cell < cell_start_.size(); ++cell) {
+    std::sort(members_.begin() + cell_start_[cell - 1], members_.begin() + cell_start_[cell],
+              [](const Member& a, const Member& b) {
+                return std::tuple(a.position.x(), a.position.y(), a.detection) <
+                       std::tuple(b.position.x(), b.position.y(), b.detection);
+              });
+  }
+}
+
+std::vector<int> DetectionGrid::in_order_of_place() const {
+  std::vector<int> order;
+  order.reserve(members_.size());
+  for (const Member& member : members_) order.push_back(member.detection);
+  return order;
 }
 
 int DetectionGrid::column_of(double x) const {
-  return static_cast<int>(
-      std::clamp((x - corner_.x()) * cells_per_metre_.x(), 0.0, columns_ - 1.0));
+  return cell_at((x - corner_.x()) * cells_per_metre_.x(), columns_);
 }
 
 int DetectionGrid::row_of(double y) const {
-  return static_cast<int>(std::clamp((y - corner_.y()) * cells_per_metre_.y(), 0.0, rows_ - 1.0));
+  return cell_at((y - corner_.y()) * cells_per_metre_.y(), rows_);
 }
 
-void DetectionGrid::append_candidates(const Prediction& prediction, double gate,
-                                      const std::vector<bool>& taken, CandidateTable& table) const {
-  if (members_.empty() || !prediction.position.allFinite()) return;
-  // The ellipse rᵀ S⁻¹ r ≤ gate² reaches gate √S_xx along x, gate √S_yy along y.
-  const Eigen::Vector2d reach =
-      gate * (prediction.covariance.diagonal() + largest_variance_).cwiseSqrt();
-  const Eigen::Vector2d low = prediction.position - reach;
-  const Eigen::Vector2d high = prediction.position + reach;
-  const int first_column = column_of(low.x());
-  const int last_column = column_of(high.x());
-  const auto first_candidate = table.candidates.size();
-  for (int row = row_of(low.y()); row <= row_of(high.y()); ++row) {
-    const int begin = cell_start_[row * columns_ + first_column];
-    const int end = cell_start_[row * columns_ + last_column + 1];
-    for (int i = begin; i < end; ++i) {
-      const int member = members_[i];
-      if (taken[member]) continue;
-      const double distance = mahalanobis_distance(prediction, detections_[member]);
-      if (distance <= gate) table.candidates.push_back({member, distance});
+void DetectionGrid::append_row(const Prediction& prediction, double gate,
+                               CandidateTable& table) const {
+  const auto first_candidate = static_cast<std::ptrdiff_t>(table.candidates.size());
+  if (!members_.empty() && prediction.position.allFinite()) {
+    // The ellipse rᵀ S⁻¹ r ≤ gate² reaches gate √S_xx along x, gate √S_yy along y.
+    const Eigen::Vector2d reach =
+        gate * (prediction.covariance.diagonal() + largest_variance_).cwiseSqrt();
+    const Eigen::Vector2d low = prediction.position - reach;
+    const Eigen::Vector2d high = prediction.position + reach;
+    const int first_column = column_of(low.x());
+    const int last_column = column_of(high.x());
+    const int last_row = row_of(high.y());
+    const double surely_outside = 1.0001 * gate * gate;  // spares a division and a root
+    for (int row = row_of(low.y()); row <= last_row; ++row) {
+      const int begin = cell_start_[row * columns_ + first_column];
+      const int end = cell_start_[row * columns_ + last_column + 1];
+      for (int i = begin; i < end; ++i) {
+        const Member& member = members_[i];
+        const Quotient quotient(prediction, member.position, member.covariance);
+        if (quotient.numerator > surely_outside * quotient.determinant) continue;
+        const double distance = quotient.distance();
+        if (distance <= gate) table.candidates.push_back({member.detection, distance});
+      }
     }
   }
-  std::sort(table.candidates.begin() + static_cast<std::ptrdiff_t>(first_candidate),
-            table.candidates.end(),
+  std::sort(table.candidates.begin() + first_candidate, table.candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.detection < b.detection; });
+  table.close_row();
 }
 
 }  // namespace ghtrack

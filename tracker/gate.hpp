@@ -25,26 +25,37 @@ double mahalanobis_distance(const Prediction& prediction, const Detection& detec
 /// grid over the scan, about one detection per cell.
 class DetectionGrid {
  public:
-  /// Keeps a view of the detections. Those that are not usable are never found.
+  /// Detections that are not usable are never found.
   explicit DetectionGrid(std::span<const Detection> detections);
 
-  /// Appends the row of a track: every detection that is not taken and whose Mahalanobis distance
-  /// from the prediction is at most `gate`, in the order of the scan. The distance is the cost.
-  void append_candidates(const Prediction& prediction, double gate, const std::vector<bool>& taken,
-                         CandidateTable& table) const;
+  /// The usable detections, neighbours near each other: the same order for every order of the scan.
+  std::vector<int> in_order_of_place() const;
+
+  /// How many detections are usable.
+  int size() const { return static_cast<int>(members_.size()); }
+
+  /// Appends the row of a track: every detection whose Mahalanobis distance from the prediction is
+  /// at most `gate`, in the order of the scan. The distance is the cost.
+  void append_row(const Prediction& prediction, double gate, CandidateTable& table) const;
 
  private:
   int column_of(double x) const;
   int row_of(double y) const;
 
-  std::span<const Detection> detections_;
+  /// What gating needs of a detection, side by side in memory with its neighbours.
+  struct Member {
+    Eigen::Vector2d position;
+    Eigen::Matrix2d covariance;
+    int detection;
+  };
+
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  // lower left
   Eigen::Vector2d cells_per_metre_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d largest_variance_ = Eigen::Vector2d::Zero();  // of any detection, per axis
   int columns_ = 1;
   int rows_ = 1;
   std::vector<int> cell_start_;  // of each cell, in members_
-  std::vector<int> members_;     // detections, cell by cell
+  std::vector<Member> members_;  // cell by cell
 };
 
 }  // namespace ghtrack

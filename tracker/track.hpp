@@ -29,6 +29,7 @@ struct TrackEstimate {
   int id = 0;  // counts from 1 in the order of birth; never used twice
   TrackStatus status = TrackStatus::kTentative;
   std::string filter;  // name of the filter that leads, such as "gh"
+  std::string model;   // of several filters side by side, the leading one's, such as "ball"
   std::string label;   // class reported by the detections; empty if none
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
@@ -42,10 +43,10 @@ struct TrackEstimate {
   // What the filter's closed forms say of its error: the noise that remains when the target moves
   // as the filter assumes, and the steady lag truth − estimate when it does not, which is
   // lag_per_acceleration · a + lag_per_jerk · da/dt. A Kalman filter counts manoeuvres as noise.
-  Gains gains;                                                 // in the steady state
-  Eigen::Vector2d noise_sigma = Eigen::Vector2d::Zero();       // [m]
-  double lag_per_acceleration = 0.0;                           // [s²]
-  double lag_per_jerk = 0.0;                                   // [s³]
+  Gains gains;                                            // in the steady state
+  Eigen::Vector2d noise_sigma = Eigen::Vector2d::Zero();  // [m]
+  double lag_per_acceleration = 0.0;                      // [s²]
+  double lag_per_jerk = 0.0;                              // [s³]
 };
 
 /// All tracks after one scan.

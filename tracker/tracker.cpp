@@ -2,58 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "tracker/association.hpp"
+#include "tracker/merging.hpp"
 
 namespace ghtrack {
 namespace {
 
 void predict(Track& track, double dt) {
-  predict(track.filter, dt);
-  track.prediction.position = estimate(track.filter).position;
-  track.prediction.covariance = innovation_covariance(track.filter, Eigen::Matrix2d::Zero());
-  track.innovation_covariance = innovation_covariance(track.filter);
+  std::visit(
+      [&](auto& filter) {
+        filter.predict(dt);
+        track.prediction.position = filter.estimate().position;
+        track.prediction.covariance = filter.innovation_covariance(Eigen::Matrix2d::Zero());
+        const double nominal_variance = filter.sigma() * filter.sigma();
+        track.innovation_covariance =
+            track.prediction.covariance + nominal_variance * Eigen::Matrix2d::Identity();
+      },
+      track.filter);
   track.residual.reset();
   track.detection.reset();
 }
 
-/// Which detection each of these tracks gets; the chosen ones are marked as taken.
-std::vector<int> associate(const TrackerConfig& config, const std::vector<Track*>& tracks,
-                           const DetectionGrid& grid, std::vector<bool>& taken) {
-  CandidateTable table;
-  for (const Track* track : tracks) {
-    grid.append_candidates(track->prediction, config.gate, taken, table);
-    table.close_row();
-  }
-  const auto detections = static_cast<int>(taken.size());
-  std::vector<int> assignment = config.association == Association::kNearestGreedy
-                                    ? assign_greedily(table, detections)
-                                    : assign_globally(table, detections, config.gate);
-  for (const int detection : assignment) {
-    if (detection != kMissed) taken[detection] = true;
-  }
-  return assignment;
-}
-
-/// The same when the simulation tells which object made which detection.
-std::vector<int> associate_by_identity(const std::vector<Track*>& tracks,
-                                       std::span<const int> identities, std::vector<bool>& taken) {
-  std::vector<int> assignment;
-  for (const Track* track : tracks) {
-    const auto mine = std::find(identities.begin(), identities.end(), track->identity);
-    const bool seen = mine != identities.end();
-    assignment.push_back(seen ? static_cast<int>(mine - identities.begin()) : kMissed);
-    if (seen) taken[assignment.back()] = true;
-  }
-  return assignment;
-}
-
-void hit(Track& track, const Scan& scan, int detection) {
-  track.detection = static_cast<std::size_t>(detection);
-  const Detection& found = scan.detections[*track.detection];
-  update(track.filter, found.position, found.covariance);
-  track.residual = residual(track.filter);
+void hit(Track& track, const Scan& scan, std::size_t index) {
+  const Detection& found = scan.detections[index];
+  track.detection = index;
+  std::visit([&](auto& filter) { filter.update(found.position, found.covariance); }, track.filter);
+  track.residual = found.position - track.prediction.position;
   track.innovation_covariance = track.prediction.covariance + found.covariance;
   track.unseen = 0;
   track.history.add_hit();
@@ -66,20 +43,48 @@ void miss(Track& track, const SensorTraits& sensor) {
   track.history.add_miss();
 }
 
-/// Serves some of the tracks: each gets a detection or a miss.
-void serve(const TrackerConfig& config, const SensorTraits& sensor,
-           const std::vector<Track*>& tracks, const Scan& scan, const DetectionGrid& grid,
-           std::span<const int> identities, std::vector<bool>& taken) {
-  const std::vector<int> assignment = config.association == Association::kKnown
-                                          ? associate_by_identity(tracks, identities, taken)
-                                          : associate(config, tracks, grid, taken);
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const int detection = assignment[i];
-    if (detection == kMissed) {
-      miss(*tracks[i], sensor);
-    } else {
-      hit(*tracks[i], scan, detection);
+/// Tracks that choose among the detections at the same time: those that are confirmed, or those
+/// that are not.
+struct Stage {
+  std::vector<std::size_t> tracks;  // row by row
+  CandidateTable table;
+
+  void add(std::size_t index, const Track& track, const DetectionGrid& grid, double gate) {
+    tracks.push_back(index);
+    grid.append_row(track.prediction, gate, table);
+  }
+};
+
+/// The rows of a table without the detections that have a track already.
+CandidateTable still_free(const CandidateTable& table, const Pairing& pairing) {
+  CandidateTable rest;
+  for (int row = 0; row < table.rows(); ++row) {
+    for (const Candidate& candidate : table.row(row)) {
+      if (pairing.track_of[candidate.detection] == kMissed) rest.candidates.push_back(candidate);
     }
+    rest.close_row();
+  }
+  return rest;
+}
+
+/// Gives the tracks of these rows their detections.
+void assign(const TrackerConfig& config, const std::vector<std::size_t>& tracks,
+            const CandidateTable& table, Pairing& pairing) {
+  const auto detections = static_cast<int>(pairing.track_of.size());
+  const std::vector<int> assignment = config.association == Association::kNearestGreedy
+                                          ? assign_greedily(table, detections)
+                                          : assign_globally(table, detections, config.gate);
+  for (std::size_t row = 0; row < tracks.size(); ++row) pairing.pair(tracks[row], assignment[row]);
+}
+
+/// The same when the simulation tells which object made which detection.
+void assign_by_identity(const std::vector<Track>& tracks, std::span<const int> identities,
+                        const Scan& scan, Pairing& pairing) {
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto mine = std::find(identities.begin(), identities.end(), tracks[i].identity);
+    const auto detection = static_cast<std::size_t>(mine - identities.begin());
+    const bool is_seen = mine != identities.end() && is_usable(scan.detections[detection]);
+    pairing.pair(i, is_seen ? static_cast<int>(detection) : kMissed);
   }
 }
 
@@ -93,89 +98,126 @@ bool survives(const TrackerConfig& config, Track& track) {
     return false;
   }
   track.status = track.detection ? TrackStatus::kConfirmed : TrackStatus::kCoasting;
-  return true;
+  return !is_to_merge(config.merge, track);
 }
 
 Track begin_track(const TrackerDesign& design, int id, const Scan& scan, std::size_t index) {
   const Detection& detection = scan.detections[index];
   Track track{.id = id,
+              .history = {},
+              .detection = index,
               .filter = design.filter_for(detection.label, scan.sensor),
               .label = detection.label,
-              .history = {},
               .prediction = {detection.position, detection.covariance},
               .innovation_covariance = 2.0 * detection.covariance,
-              .residual = {},
-              .detection = index};
+              .residual = {}};
   start(track.filter, detection.position, detection.covariance);
   if (design.config().confirm.holds_for(track.history)) track.status = TrackStatus::kConfirmed;
   return track;
 }
 
-/// The tracks of one stage: confirmed and coasting ones, or tentative ones.
-std::vector<Track*> select(std::vector<Track>& tracks, bool tentative) {
-  std::vector<Track*> selected;
-  for (Track& track : tracks) {
-    if ((track.status == TrackStatus::kTentative) == tentative) selected.push_back(&track);
-  }
-  return selected;
-}
-
 void add_lag(TrackEstimate& estimate, const Filter& filter) {
-  if (!std::holds_alternative<GainFilter<2>>(filter)) return;
+  if (designed_gain_filter(filter) == nullptr) return;
   const double lag = steady_lag(filter, 1.0).x;
   if (estimate.gains.order == 1) estimate.lag_per_acceleration = lag;
   if (estimate.gains.order == 2) estimate.lag_per_jerk = lag;
+}
+
+/// The filter of detections that nobody has classified.
+FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) {
+  if (filters.empty()) return {};
+  if (filters.size() == 1) return filters.begin()->second;
+  MultipleModelConfig all;
+  for (const auto& [label, config] : filters) {
+    std::visit(
+        [&](const auto& filter) {
+          if constexpr (std::is_same_v<decltype(filter), const MultipleModelConfig&>) {
+            for (const auto& [model, single] : filter.filters) {
+              all.filters.emplace(label + " " + model, single);
+            }
+          } else {
+            all.filters.emplace(label, filter);
+          }
+        },
+        config);
+  }
+  return all;
 }
 
 }  // namespace
 
 TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors)
     : config_(std::move(config)), sensors_(std::move(sensors)) {
+  std::map<std::string, FilterConfig> by_label = config_.filters;
+  by_label.try_emplace(std::string(TrackerConfig::kDefaultFilter), default_filter(config_.filters));
   for (const SensorTraits& sensor : sensors_) {
     FiltersByLabel& filters = filters_.emplace_back();
-    filters.emplace(TrackerConfig::kDefaultFilter, make_filter({}, sensor.sigma, sensor.period));
-    for (const auto& [label, filter] : config_.filters) {
-      filters.insert_or_assign(label, make_filter(filter, sensor.sigma, sensor.period));
+    for (const auto& [label, filter] : by_label) {
+      filters.emplace(label, make_filter(filter, sensor.sigma, sensor.period));
     }
   }
 }
 
-const Filter& TrackerDesign::filter_for(const std::string& label, int sensor) const {
+const Filter& TrackerDesign::filter_for(std::string_view label, int sensor) const {
   const FiltersByLabel& filters = filters_.at(static_cast<std::size_t>(sensor));
   const auto found = filters.find(label);
   return found != filters.end() ? found->second
-                                : filters.at(std::string(TrackerConfig::kDefaultFilter));
+                                : filters.find(TrackerConfig::kDefaultFilter)->second;
 }
 
 TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& scan,
                   std::span<const int> identities) {
   const TrackerConfig& config = design.config();
   const SensorTraits& sensor = design.sensor(scan.sensor);
+  const bool is_known = config.association == Association::kKnown;
   if (!(scan.time >= state.time) || !std::isfinite(scan.time)) {
     ++state.scans_refused;
     return state;
   }
-  for (Track& track : state.tracks) predict(track, scan.time - state.time);
+  const double dt = scan.time - state.time;
   state.time = scan.time;
   state.sensor = scan.sensor;
+  std::vector<Track>& tracks = state.tracks;
 
-  std::vector<bool> taken(scan.detections.size(), false);
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    if (is_usable(scan.detections[i])) continue;
-    taken[i] = true;
-    ++state.detections_refused;
-  }
   const DetectionGrid grid(scan.detections);
-  for (const bool tentative : {false, true}) {
-    serve(config, sensor, select(state.tracks, tentative), scan, grid, identities, taken);
+  state.detections_refused += static_cast<int>(scan.detections.size()) - grid.size();
+  Stage confirmed, tentative;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    predict(tracks[i], dt);
+    if (is_known) continue;
+    Stage& stage = tracks[i].status == TrackStatus::kTentative ? tentative : confirmed;
+    stage.add(i, tracks[i], grid, config.gate);
   }
-  std::erase_if(state.tracks, [&](Track& track) { return !survives(config, track); });
 
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    const bool known = config.association == Association::kKnown;
-    if (taken[i] || (known && identities[i] == Track::kUnknown)) continue;
-    state.tracks.push_back(begin_track(design, state.next_id++, scan, i));
-    if (known) state.tracks.back().identity = identities[i];
+  Pairing pairing(tracks.size(), scan.detections.size());
+  if (is_known) {
+    assign_by_identity(tracks, identities, scan, pairing);
+  } else {
+    assign(config, confirmed.tracks, confirmed.table, pairing);
+    assign(config, tentative.tracks, still_free(tentative.table, pairing), pairing);
+  }
+
+  note_rivals(config.merge, confirmed.tracks, confirmed.table, pairing, tracks);
+
+  std::size_t alive = 0;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const int detection = pairing.detection_of[i];
+    if (detection == kMissed) {
+      miss(tracks[i], sensor);
+    } else {
+      hit(tracks[i], scan, static_cast<std::size_t>(detection));
+    }
+    if (!survives(config, tracks[i])) continue;
+    if (alive != i) tracks[alive] = std::move(tracks[i]);
+    ++alive;
+  }
+  tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(alive), tracks.end());
+
+  for (const int i : grid.in_order_of_place()) {
+    if (pairing.track_of[i] != kMissed) continue;
+    if (is_known && identities[i] == Track::kUnknown) continue;
+    tracks.push_back(begin_track(design, state.next_id++, scan, static_cast<std::size_t>(i)));
+    if (is_known) tracks.back().identity = identities[i];
   }
   return state;
 }
@@ -188,6 +230,7 @@ TrackSnapshot snapshot(const TrackerState& state) {
     result.tracks.push_back({.id = track.id,
                              .status = track.status,
                              .filter = std::string(name(track.filter)),
+                             .model = std::string(model_name(track.filter)),
                              .label = track.label,
                              .position = now.position,
                              .velocity = now.velocity,

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sensors/detection.hpp"
@@ -20,14 +22,16 @@ namespace ghtrack {
 struct Track {
   int id = 0;
   TrackStatus status = TrackStatus::kTentative;
-  Filter filter;
-  std::string label;  // of the detection that started it
-  int unseen = 0;     // scans since its last detection
+  int unseen = 0;  // scans since its last detection
+  int rival = 0;   // an older track that may follow the same target
+  int shared = 0;  // scans in which the two had one detection between them
   HitHistory history;
+  std::optional<std::size_t> detection;  // of this scan
+  Filter filter;
+  std::string label;                                                // of the first detection
   Prediction prediction;                                            // of this scan's detection
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of this scan's residual [m²]
   std::optional<Eigen::Vector2d> residual;                          // of this scan's detection
-  std::optional<std::size_t> detection;                             // of this scan
   int identity = kUnknown;  // association: known; the object it belongs to
 
   static constexpr int kUnknown = -1;
@@ -44,6 +48,7 @@ struct TrackerState {
 };
 
 /// A tracker for given sensors: its configuration, and a filter designed for each class and sensor.
+/// Without a filter named "default", those of all classes run side by side where no class is told.
 class TrackerDesign {
  public:
   /// @param sensors  the data sheets, by Scan::sensor
@@ -56,10 +61,10 @@ class TrackerDesign {
   }
 
   /// The filter of a new track: waits for its first measurement.
-  const Filter& filter_for(const std::string& label, int sensor) const;
+  const Filter& filter_for(std::string_view label, int sensor) const;
 
  private:
-  using FiltersByLabel = std::map<std::string, Filter>;
+  using FiltersByLabel = std::map<std::string, Filter, std::less<>>;
 
   TrackerConfig config_;
   std::vector<SensorTraits> sensors_;
@@ -70,7 +75,8 @@ class TrackerDesign {
 ///   predict     every track to the time of the scan
 ///   associate   gate and assign: confirmed tracks first, tentative ones get what is left
 ///   update      tracks with their detection; tracks without one coast
-///   life cycle  confirm and drop by the hit and miss rules; each leftover detection starts a track
+///   life cycle  confirm and drop by the hit and miss rules; merge tracks of one target; each
+///               leftover detection starts a track
 /// A scan that is older than the latest one, and a detection that is not usable, is refused and
 /// counted. A miss counts only where the sensor could have seen the target.
 /// @param identities  for `association: known`: the object behind each detection of the scan,

@@ -12,7 +12,10 @@
 
 namespace ghtrack {
 
-/// Which detection belongs to which track?
+/// Which detection belongs to which track? One detection for one track in each of them. Joint
+/// probabilistic data association is left out: its exact form enumerates the joint events, whose
+/// number explodes where tracks crowd (times ten with each track more), and that is where it would
+/// be wanted.
 enum class Association {
   kNearestGlobal,  // the assignment with the least total distance
   kNearestGreedy,  // the nearest pair first
@@ -76,6 +79,26 @@ struct MissRule {
   }
 };
 
+/// Ends the younger of two confirmed tracks that follow one target.
+struct MergeRule {
+  int scans = 5;
+  double distance = 2.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("scans", &MergeRule::scans,
+            {.meaning = "scans in which one of the two took a detection that the other one lacked, "
+                        "since both had one of their own; 0: never merge",
+             .minimum = 0,
+             .maximum = 1e6});
+    v.field("distance", &MergeRule::distance,
+            {.unit = "1",
+             .meaning = "how near the two are in all of these scans, in sigmas of their difference",
+             .minimum = 0.0,
+             .maximum = 100.0});
+  }
+};
+
 struct TrackerConfig {
   static constexpr std::string_view about = "turns detections into tracks";
   static constexpr std::string_view kDefaultFilter = "default";
@@ -87,7 +110,8 @@ struct TrackerConfig {
   MissRule drop_confirmed{.misses = 5, .scans = 5};
   int drop_unseen = 10;  // scans without a detection, in view or not
   LateScans late_scans = LateScans::kRefuse;
-  double late_window = 2.0;                     // how late a scan may be and still be replayed [s]
+  double late_window = 2.0;  // how late a scan may be and still be replayed [s]
+  MergeRule merge;
   std::map<std::string, FilterConfig> filters;  // by reported class, or "default"
 
   template <class Visitor>
@@ -117,9 +141,12 @@ struct TrackerConfig {
              .meaning = "a scan later than this is not replayed; each scan in it is kept in memory",
              .above = 0.0,
              .maximum = 1e3});
+    v.field("merge", &TrackerConfig::merge,
+            {.meaning = "when two confirmed tracks are one target, and the younger one ends"});
     v.field("filters", &TrackerConfig::filters,
             {.meaning = "filter by reported class; `default` serves every other class and "
-                        "detections without one"});
+                        "detections without one; if it is missing, all filters run side by side "
+                        "on those and the innovations decide which one leads"});
   }
 };
 

@@ -22,15 +22,24 @@ std::vector<FilterConfig> defaults_of(const std::variant<Configs...>&) {
   return {FilterConfig(Configs{})...};
 }
 
+/// A slow filter and a nimble one.
+MultipleModelConfig two_models() {
+  MultipleModelConfig config;
+  config.filters["slow"] = KalmanCvConfig{.model = process::PiecewiseConstant{.process_noise = 1}};
+  config.filters["nimble"] = GhConfig{.design = gain_design::TrackingIndex<1>{}};
+  return config;
+}
+
 /// Every rule of a filter with designed gains.
 template <int Order, class... Rules>
 void add_rules(std::vector<FilterConfig>& all, const std::variant<Rules...>&) {
   (all.push_back(GainFilterConfig<Order>{.design = Rules{}}), ...);
 }
 
-/// Every filter by default, and every gain rule.
+/// Every filter by default, every gain rule, and two filters side by side.
 std::vector<FilterConfig> configurations() {
-  std::vector<FilterConfig> all = defaults_of(FilterConfig{});
+  std::vector<FilterConfig> all = defaults_of(SingleFilterConfig{});
+  all.push_back(two_models());
   add_rules<0>(all, gain_design::Rules<0>::Any{});
   add_rules<1>(all, gain_design::Rules<1>::Any{});
   add_rules<2>(all, gain_design::Rules<2>::Any{});
@@ -52,9 +61,15 @@ class FilterContract : public ::testing::TestWithParam<FilterConfig> {
   }
 };
 
-// Property: the name is a configuration's kind; the gains are stable and written out.
+// Property: the name is a configuration's kind, of several models that of the one that leads; the
+// gains are stable and written out.
 TEST_P(FilterContract, NamesItselfAndItsGains) {
-  const auto kind = std::visit([](const auto& config) { return config.kind; }, GetParam());
+  FilterConfig config = GetParam();
+  if (const auto* several = std::get_if<MultipleModelConfig>(&config)) {
+    const SingleFilterConfig leading = several->filters.at(std::string(model_name(filter_)));
+    config = std::visit([](const auto& single) { return FilterConfig(single); }, leading);
+  }
+  const auto kind = std::visit([](const auto& chosen) { return chosen.kind; }, config);
   EXPECT_EQ(name(filter_), kind);
   EXPECT_EQ(gains_text(filter_).substr(0, 2), "g=");
   EXPECT_TRUE(is_stable(steady_gains(filter_)));

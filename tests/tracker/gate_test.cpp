@@ -44,16 +44,13 @@ TEST(Gate, GridFindsTheSameCandidatesAsLookingAtEverything) {
   for (const int count : {0, 1, 2, 5, 50, 700}) {
     const auto detections = scattered(count, 100.0, random);
     const DetectionGrid grid(detections);
-    std::vector<bool> taken(detections.size(), false);
-    for (std::size_t i = 0; i < taken.size(); i += 7) taken[i] = true;
     for (const Detection& track : scattered(100, 130.0, random)) {
       const Prediction prediction{.position = track.position, .covariance = 4.0 * track.covariance};
       CandidateTable table;
-      grid.append_candidates(prediction, 3.0, taken, table);
+      grid.append_row(prediction, 3.0, table);
       std::vector<int> expected;
       for (int i = 0; i < count; ++i) {
-        if (!taken[i] && mahalanobis_distance(prediction, detections[i]) <= 3.0)
-          expected.push_back(i);
+        if (mahalanobis_distance(prediction, detections[i]) <= 3.0) expected.push_back(i);
       }
       std::vector<int> found;
       for (const Candidate& candidate : table.candidates) found.push_back(candidate.detection);
@@ -67,9 +64,7 @@ TEST(Gate, CoincidentDetectionsAreAllFound) {
   const Detection one{.position = Vector2d(5, 5), .covariance = Matrix2d::Identity(), .label = {}};
   const std::vector<Detection> detections(20, one);
   CandidateTable table;
-  DetectionGrid(detections)
-      .append_candidates({Vector2d(5, 6), Matrix2d::Identity()}, 3.0, std::vector<bool>(20, false),
-                         table);
+  DetectionGrid(detections).append_row({Vector2d(5, 6), Matrix2d::Identity()}, 3.0, table);
   EXPECT_EQ(table.candidates.size(), 20U);
 }
 

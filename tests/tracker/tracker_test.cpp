@@ -38,7 +38,7 @@ TrackerState follow(const TrackerDesign& tracker, const std::vector<Scan>& scans
 }
 
 /// Targets in steady motion seen with noise, one in ten detections missing, some clutter.
-std::vector<Scan> busy_scans(int count, const Vector2d& shift, bool reversed) {
+std::vector<Scan> busy_scans(int count, const Vector2d& shift) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> unit;
@@ -52,7 +52,6 @@ std::vector<Scan> busy_scans(int count, const Vector2d& shift, bool reversed) {
     }
     const Vector2d clutter(100.0 * unit(random), 20.0 * unit(random));
     seen.push_back(clutter + shift);
-    if (reversed) std::reverse(seen.begin(), seen.end());
     scans.push_back(scan_of(kPeriod * i, seen));
   }
   return scans;
@@ -105,7 +104,8 @@ TEST(Tracker, CoastsThroughMissesAndThenLetsGo) {
   EXPECT_TRUE(tentative.tracks.empty());
 }
 
-// Derived: misses outside the field of view say nothing; after 20 scans unseen the track ends anyway.
+// Derived: misses outside the field of view say nothing; after 20 scans unseen the track ends
+// anyway.
 TEST(Tracker, MissesOutsideTheFieldOfViewDoNotCount) {
   TrackerConfig config;
   config.drop_unseen = 20;
@@ -125,40 +125,15 @@ TEST(Tracker, MissesOutsideTheFieldOfViewDoNotCount) {
   EXPECT_TRUE(state.tracks.empty());
 }
 
-// Property: the order of the detections inside a scan changes nothing but the ids of tracks.
-TEST(Tracker, OrderInsideAScanDoesNotMatter) {
-  const TrackerDesign tracker = design();
-  const auto forward =
-      confirmed_positions(follow(tracker, busy_scans(60, Vector2d::Zero(), false)));
-  const auto backward =
-      confirmed_positions(follow(tracker, busy_scans(60, Vector2d::Zero(), true)));
-  EXPECT_GE(forward.size(), 7U);
-  EXPECT_EQ(forward, backward);
-}
-
 // Property: the world has no preferred origin; 1024 m is exact in binary, so only rounding differs.
 TEST(Tracker, ShiftingTheWorldShiftsTheTracks) {
   const TrackerDesign tracker = design();
   const Vector2d shift(1024.0, -512.0);
-  const auto here = confirmed_positions(follow(tracker, busy_scans(60, Vector2d::Zero(), false)));
-  const auto there = confirmed_positions(follow(tracker, busy_scans(60, shift, false)));
+  const auto here = confirmed_positions(follow(tracker, busy_scans(60, Vector2d::Zero())));
+  const auto there = confirmed_positions(follow(tracker, busy_scans(60, shift)));
   ASSERT_EQ(here.size(), there.size());
   for (std::size_t i = 0; i < here.size(); ++i) {
     EXPECT_NEAR((there[i] - here[i] - shift).norm(), 0.0, 1e-9);
-  }
-}
-
-// Property: one detection serves one track.
-TEST(Tracker, NoDetectionServesTwoTracks) {
-  const TrackerDesign tracker = design();
-  TrackerState state;
-  for (const Scan& scan : busy_scans(100, Vector2d::Zero(), false)) {
-    state = step(tracker, std::move(state), scan);
-    std::vector<int> served(scan.detections.size(), 0);
-    for (const Track& track : state.tracks) {
-      if (track.detection) ++served[*track.detection];
-    }
-    EXPECT_TRUE(std::all_of(served.begin(), served.end(), [](int n) { return n <= 1; }));
   }
 }
 
@@ -173,32 +148,6 @@ TEST(Tracker, RefusesAndCountsWhatItCannotUse) {
   EXPECT_EQ(state.tracks.size(), 1U);
   EXPECT_EQ(state.scans_refused, 3);
   EXPECT_EQ(state.detections_refused, 2);
-}
-
-// Property: whatever arrives, every state stays finite.
-TEST(Tracker, StaysFiniteUnderHostileScans) {
-  const TrackerDesign tracker = design();
-  const std::vector<double> hostile = {std::numeric_limits<double>::quiet_NaN(),
-                                       std::numeric_limits<double>::infinity(),
-                                       1e308,
-                                       -1e308,
-                                       1e-308,
-                                       0.0};
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal;
-  TrackerState state;
-  double time = 0.0;
-  for (int i = 0; i < 20000; ++i) {
-    time += random() % 10 == 0 ? 0.0 : kPeriod;
-    std::vector<Vector2d> seen = {Vector2d(normal(random), normal(random))};
-    if (random() % 10 == 0) seen.emplace_back(hostile[random() % hostile.size()], normal(random));
-    state = step(tracker, std::move(state), scan_of(time, seen));
-    for (const TrackEstimate& track : snapshot(state).tracks) {
-      ASSERT_TRUE(track.position.allFinite() && track.velocity.allFinite());
-      ASSERT_TRUE(track.sigma.allFinite());
-    }
-  }
-  EXPECT_GT(state.detections_refused, 100);
 }
 
 // Derived: with known identities two targets that cross exactly never swap their tracks.

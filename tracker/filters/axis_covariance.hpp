@@ -1,6 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "tracker/filters/gains/rules.hpp"
+#include "tracker/filters/kinematics.hpp"
 
 namespace ghtrack {
 
@@ -15,6 +18,14 @@ struct AxisCovariance {
     vv += other.vv, va += other.va, aa += other.aa;
     return *this;
   }
+};
+
+/// What one filter knows of an object, for another one to go on from.
+template <int D>
+struct Knowledge {
+  int order = 0;  // highest derivative that is known
+  Kinematics<D> state;
+  AxisCovariance<Eigen::Array<double, D, 1>> covariance;  // of the derivatives up to `order`
 };
 
 /// What a residual is multiplied by: x += r·x, v += r·v, a += r·a.

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace ghtrack {
 namespace {
@@ -31,8 +34,10 @@ void require_stable(const Gains& gains) {
 }
 
 template <int Order>
-Filter make(const GainFilterConfig<Order>& config, double sigma, double dt) {
-  GainSchedule schedule{.interval = dt, .start_up = config.start_up};
+SingleFilter make(const GainFilterConfig<Order>& config, double sigma, double dt) {
+  GainSchedule schedule{.interval = dt,
+                        .source = config.source(),
+                        .start_up = config.start_up.value_or(StartUp::kGrowingMemory)};
   ErrorModel errors{.sigma = sigma,
                     .initial_speed = config.initial_speed,
                     .initial_acceleration = config.initial_acceleration,
@@ -54,7 +59,7 @@ Filter make(const GainFilterConfig<Order>& config, double sigma, double dt) {
 }
 
 template <int Order>
-Filter make(const KalmanConfig<Order>& config, double sigma, double dt) {
+SingleFilter make(const KalmanConfig<Order>& config, double sigma, double dt) {
   KalmanModel model{.sigma = sigma,
                     .interval = dt,
                     .initial_speed = config.initial_speed,
@@ -69,6 +74,15 @@ Filter make(const KalmanConfig<Order>& config, double sigma, double dt) {
   return KalmanFilter<Order, 2>(model);
 }
 
+MultipleModelFilter make(const MultipleModelConfig& config, double sigma, double dt) {
+  std::vector<MultipleModelFilter::Model> models;
+  for (const auto& [label, filter] : config.filters) {
+    models.push_back(
+        {label, std::visit([&](const auto& chosen) { return make(chosen, sigma, dt); }, filter)});
+  }
+  return MultipleModelFilter(std::move(models), config.switching);
+}
+
 }  // namespace
 
 Filter make_filter(const FilterConfig& config, double sigma, double dt) {
@@ -78,7 +92,17 @@ Filter make_filter(const FilterConfig& config, double sigma, double dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) {
     throw std::invalid_argument("a filter needs a positive time between updates");
   }
-  return std::visit([&](const auto& chosen) { return make(chosen, sigma, dt); }, config);
+  return std::visit(
+      [&](const auto& chosen) {
+        const auto widened = [](auto&& made) { return Filter(std::forward<decltype(made)>(made)); };
+        const auto made = make(chosen, sigma, dt);
+        if constexpr (std::is_same_v<decltype(made), const MultipleModelFilter>) {
+          return widened(made);
+        } else {
+          return std::visit(widened, made);
+        }
+      },
+      config);
 }
 
 bool start(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& covariance) {
@@ -135,7 +159,10 @@ Eigen::Vector2d position_sigma(const Filter& filter) {
 }
 
 Eigen::Vector2d noise_sigma(const Filter& filter) {
-  if (const auto* gains = std::get_if<GainFilter<2>>(&filter)) return gains->noise_sigma();
+  if (const auto* several = std::get_if<MultipleModelFilter>(&filter)) {
+    return several->noise_sigma();
+  }
+  if (const auto* gains = designed_gain_filter(filter)) return gains->noise_sigma();
   return position_sigma(filter);
 }
 
@@ -149,6 +176,18 @@ Eigen::Matrix2d innovation_covariance(const Filter& filter) {
 
 std::string_view name(const Filter& filter) {
   return std::visit([](const auto& f) { return f.name(); }, filter);
+}
+
+std::string_view model_name(const Filter& filter) {
+  const auto* several = std::get_if<MultipleModelFilter>(&filter);
+  return several != nullptr ? several->leader().name : std::string_view();
+}
+
+const GainFilter<2>* designed_gain_filter(const Filter& filter) {
+  if (const auto* several = std::get_if<MultipleModelFilter>(&filter)) {
+    return std::get_if<GainFilter<2>>(&several->leader().filter);
+  }
+  return std::get_if<GainFilter<2>>(&filter);
 }
 
 std::string gains_text(const Filter& filter) {

@@ -10,6 +10,7 @@
 #include "tracker/filters/filter_config.hpp"
 #include "tracker/filters/gain_filter.hpp"
 #include "tracker/filters/kalman_filter.hpp"
+#include "tracker/filters/multiple_model.hpp"
 
 namespace ghtrack {
 
@@ -43,8 +44,9 @@ inline constexpr bool all_are_planar_filters = false;
 template <class... Fs>
 inline constexpr bool all_are_planar_filters<std::variant<Fs...>> = (PlanarFilter<Fs> && ...);
 
-/// One object's filter. Add yours here.
-using Filter = std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>>;
+/// One object's filter.
+using Filter =
+    std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>, MultipleModelFilter>;
 static_assert(all_are_planar_filters<Filter>,
               "every alternative of Filter needs the operations of PlanarFilter");
 
@@ -76,15 +78,21 @@ const std::optional<Eigen::Vector2d>& residual(const Filter& filter);
 /// Predicted 1-sigma error of the estimated position per axis [m]; after predict() of the
 /// predicted position.
 Eigen::Vector2d position_sigma(const Filter& filter);
-/// What is left of it when the target moves exactly as the filter assumes, per axis [m]. A Kalman
-/// filter cannot tell: its error and its allowance for manoeuvres are one.
+/// What is left of it when the target moves exactly as the filter assumes, per axis [m]; of several
+/// models as the leading one assumes. A Kalman filter cannot tell: its error and its allowance for
+/// manoeuvres are one.
 Eigen::Vector2d noise_sigma(const Filter& filter);
 /// Covariance of the residual that a measurement would have after predict() [m²].
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement);
 Eigen::Matrix2d innovation_covariance(const Filter& filter);
 
-/// Such as "gh".
+/// Such as "gh"; of several models the leading one's.
 std::string_view name(const Filter& filter);
+/// Of several models the name of the leading one, such as "ball"; empty for a single filter.
+std::string_view model_name(const Filter& filter);
+/// The filter with designed gains that leads, if it is one: only those have a lag apart from their
+/// predicted error.
+const GainFilter<2>* designed_gain_filter(const Filter& filter);
 /// Such as "g=0.1 h=0.005"; for a Kalman filter the gains that it settles at.
 std::string gains_text(const Filter& filter);
 Gains steady_gains(const Filter& filter);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -23,7 +25,8 @@ struct GainFilterConfig {
                    : "Position, velocity and acceleration with given gains.";
 
   typename gain_design::Rules<Order>::Any design = {};
-  StartUp start_up = StartUp::kGrowingMemory;
+  std::optional<GainSource> schedule = {};
+  std::optional<StartUp> start_up = {};
   std::optional<IrregularTime> irregular_time = {};
   std::optional<double> allowed_acceleration = {};
   double initial_speed = 30.0;
@@ -33,15 +36,18 @@ struct GainFilterConfig {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.tagged("design", &GainFilterConfig::design, {.meaning = "the rule that gives the gains"});
+    v.field("schedule", &GainFilterConfig::schedule,
+            {.meaning = "gains from each track's own predicted error, which makes them the Kalman "
+                        "filter's, or the designed ones with a table for the start, uneven times "
+                        "and misses; by default covariance for tracking-index, else table"});
     if constexpr (Order >= 1) {
-      v.field(
-          "start_up", &GainFilterConfig::start_up,
-          {.meaning = "gains of the first updates: least squares, the first two points, or none"});
+      v.field("start_up", &GainFilterConfig::start_up,
+              {.meaning = "gains of the first updates in a table: least squares (the default), the "
+                          "first two points, or none"});
     }
-    v.field(
-        "irregular_time", &GainFilterConfig::irregular_time,
-        {.meaning = "how gains follow uneven times and misses; by default gains-from-elapsed where "
-                    "the design has a time scale, else fixed-gains"});
+    v.field("irregular_time", &GainFilterConfig::irregular_time,
+            {.meaning = "how gains in a table follow uneven times and misses; by default "
+                        "gains-from-elapsed where the design has a time scale, else fixed-gains"});
     v.field("allowed_acceleration", &GainFilterConfig::allowed_acceleration,
             {.unit = "m/s²",
              .meaning = "1-sigma acceleration that the predicted error and the gate allow for; by "
@@ -68,11 +74,30 @@ struct GainFilterConfig {
 
   template <class Report>
   void check(Report&& report) const {
+    if (schedule == GainSource::kCovariance && !has_process_noise()) {
+      report("schedule",
+             "gains can follow the predicted error only for the design tracking-index, which "
+             "says how uncertain the motion is; use table");
+    }
+    if (schedule == GainSource::kCovariance && is_for_tables()) {
+      report("schedule",
+             "start_up, irregular_time and allowed_acceleration are for the schedule table");
+    }
     if (!irregular_time || *irregular_time == IrregularTime::kFixedGains || has_time_scale())
       return;
     report("irregular_time",
            "gains can follow the time only for the designs tracking-index, fading-memory and "
            "critical-damping; use fixed-gains");
+  }
+
+  GainSource source() const {
+    if (schedule) return *schedule;
+    return has_process_noise() && !is_for_tables() ? GainSource::kCovariance : GainSource::kTable;
+  }
+
+  /// Whether the design says how uncertain the motion is.
+  bool has_process_noise() const {
+    return std::holds_alternative<gain_design::TrackingIndex<Order>>(design);
   }
 
   /// Whether the design says what its gains would be at another interval.
@@ -85,6 +110,9 @@ struct GainFilterConfig {
         },
         design);
   }
+
+ private:
+  bool is_for_tables() const { return start_up || irregular_time || allowed_acceleration; }
 };
 
 using Order0Config = GainFilterConfig<0>;
@@ -188,8 +216,39 @@ struct KalmanConfig {
 using KalmanCvConfig = KalmanConfig<1>;
 using KalmanCaConfig = KalmanConfig<2>;
 
-/// What a scene may ask for. Add yours here, and its filter to Filter.
-using FilterConfig =
+/// One filter. Add yours here, and its filter to SingleFilter.
+using SingleFilterConfig =
     std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig, KalmanCaConfig>;
+
+/// Several filters side by side as a scene says it: {multiple-model: {filters: {…}}}.
+struct MultipleModelConfig {
+  static constexpr std::string_view kind = "multiple-model";
+  static constexpr std::string_view about =
+      "Several filters run side by side; the one that has predicted the detections best leads.";
+
+  std::map<std::string, SingleFilterConfig> filters;  // by a name of your choice
+  double switching = 0.01;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("filters", &MultipleModelConfig::filters,
+            {.meaning = "filters by a name of your choice", .required = true});
+    v.field("switching", &MultipleModelConfig::switching,
+            {.unit = "1",
+             .meaning = "probability that from one detection to the next the target begins to move "
+                        "as another filter assumes",
+             .minimum = 0.0,
+             .maximum = 0.5});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (filters.empty()) report("filters", "at least one filter is needed");
+  }
+};
+
+/// What a scene may ask for.
+using FilterConfig = std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig, KalmanCaConfig,
+                                  MultipleModelConfig>;
 
 }  // namespace ghtrack

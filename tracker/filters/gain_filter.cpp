@@ -125,18 +125,31 @@ auto GainFilter<D>::scheduled() const -> Scheduled {
   return {larger(start_up_gains(order, n), steady), elapsed_};
 }
 
-/// A second sensor at the same instant: the optimal gain for the error known so far.
+/// The best gain for the error known so far: Kalman's, on each axis.
 template <int D>
-auto GainFilter<D>::same_instant_gain(const Axes& variance) const -> AxisGain<Axes> {
+auto GainFilter<D>::optimal_gain(const Axes& variance) const -> AxisGain<Axes> {
   const Axes total = (covariance_.xx + variance).max(std::numeric_limits<double>::min());
   return {covariance_.xx / total, covariance_.xv / total, covariance_.xa / total};
+}
+
+template <int D>
+auto GainFilter<D>::as_scheduled(const AxisGain<Axes>& gain) const -> Scheduled {
+  const double t = interval_;
+  return {{schedule_.steady.order, gain.x[0], gain.v[0] * t, 0.5 * gain.a[0] * t * t}, t};
 }
 
 template <int D>
 bool GainFilter<D>::update(const Vector& z, const Matrix& covariance) {
   if (!started_) return start(z, covariance);
   const Axes variance = covariance.diagonal().array();
-  if (updates_ > 0 && elapsed_ == 0.0) return correct(z, variance, same_instant_gain(variance));
+  // A second sensor at the same instant has no place in a table.
+  const bool same_instant = updates_ > 0 && elapsed_ == 0.0;
+  if (same_instant || schedule_.source == GainSource::kCovariance) {
+    const AxisGain<Axes> gain = optimal_gain(variance);
+    if (!correct(z, variance, gain)) return false;
+    used_ = as_scheduled(gain);
+    return true;
+  }
 
   const Scheduled due = scheduled();
   const auto& [gains, dt] = due;
@@ -197,6 +210,34 @@ template <int D>
 void GainFilter<D>::coast() {
   residual_.reset();
   ++misses_;
+}
+
+template <int D>
+void GainFilter<D>::adopt(const Knowledge<D>& known) {
+  const int order = schedule_.steady.order;
+  estimate_ = {.position = known.state.position};
+  covariance_ = on_all_axes<Axes>({});
+  covariance_.xx = known.covariance.xx;
+  if (order >= 1) {
+    covariance_.vv.setConstant(errors_.initial_speed * errors_.initial_speed);
+  }
+  if (order >= 2) {
+    covariance_.aa.setConstant(errors_.initial_acceleration * errors_.initial_acceleration);
+  }
+  if (order >= 1 && known.order >= 1) {
+    estimate_.velocity = known.state.velocity;
+    covariance_.xv = known.covariance.xv;
+    covariance_.vv = known.covariance.vv;
+  }
+  if (order >= 2 && known.order >= 2) {
+    estimate_.acceleration = known.state.acceleration;
+    covariance_.xa = known.covariance.xa;
+    covariance_.va = known.covariance.va;
+    covariance_.aa = known.covariance.aa;
+  }
+  prior_ = estimate_;
+  noise_ = covariance_;
+  starting_up_ = false;
 }
 
 template <int D>

@@ -13,8 +13,8 @@
 
 namespace ghtrack {
 
-/// What a filter with given gains assumes about errors. It shapes the predicted error and the
-/// Huber limit, never the gains.
+/// What a filter with designed gains assumes about errors. It shapes the predicted error and the
+/// Huber limit, and gains that follow the predicted error.
 struct ErrorModel {
   double sigma = 1.0;  // of a measurement, per axis [m]
   ProcessModel process_model = ProcessModel::kPiecewiseConstant;
@@ -30,7 +30,8 @@ struct ErrorModel {
 ///   x = x' + g r,  v = v' + (h/T) r,  a = a' + (2k/T²) r    update
 /// Beside the state it carries the covariance that these gains give to its error, exactly: at
 /// start-up that of growing memory, later the variance reduction factors, more after each miss.
-/// Lag is not in it: see steady_lag().
+/// Lag is not in it: see steady_lag(). With GainSource::kCovariance the gains in turn are the best
+/// ones for that covariance: the filter is the Kalman filter of the same process noise.
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
 /// leave the filter as it was.
@@ -75,6 +76,11 @@ class GainFilter {
   /// Says that there is no measurement for this prediction, although there should be.
   void coast();
 
+  /// Goes on from what another filter knows at this instant; derivatives that it does not know are
+  /// as uncertain as at first sight. The start-up is over.
+  void adopt(const Knowledge<D>& known);
+  Knowledge<D> knowledge() const { return {schedule_.steady.order, estimate_, covariance_}; }
+
   bool is_started() const { return started_; }
   int updates() const { return updates_; }
   int consecutive_misses() const { return misses_; }
@@ -91,7 +97,7 @@ class GainFilter {
   double used_interval() const { return used_.interval; }
 
   /// Predicted 1-sigma errors of estimate(), per axis.
-  Vector position_sigma() const { return covariance_.xx.sqrt().matrix(); }
+  Vector position_sigma() const { return covariance_.xx.max(0.0).sqrt().matrix(); }
   Vector velocity_sigma() const { return covariance_.vv.max(0.0).sqrt().matrix(); }
   /// The part of position_sigma() that measurement errors cause: what is left when the target moves
   /// exactly as the filter assumes.
@@ -110,7 +116,8 @@ class GainFilter {
   };
   Matrix nominal_covariance() const { return errors_.sigma * errors_.sigma * Matrix::Identity(); }
   Scheduled scheduled() const;
-  AxisGain<Axes> same_instant_gain(const Axes& variance) const;
+  AxisGain<Axes> optimal_gain(const Axes& variance) const;
+  Scheduled as_scheduled(const AxisGain<Axes>& gain) const;
   bool correct(const Vector& z, const Axes& variance, const AxisGain<Axes>& gain);
   bool refuse_measurement();
 

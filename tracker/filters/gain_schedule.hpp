@@ -9,6 +9,16 @@
 
 namespace ghtrack {
 
+/// Where the gains of an update come from.
+enum class GainSource {
+  kCovariance,  // the best ones for the track's own predicted error: those of the Kalman filter
+                // with the design's process noise, which settle at the designed ones
+  kTable,       // the designed ones, and a table for start-up, uneven times and misses
+};
+constexpr std::array<std::pair<std::string_view, GainSource>, 2> enum_names(GainSource) {
+  return {{{"covariance", GainSource::kCovariance}, {"table", GainSource::kTable}}};
+}
+
 /// Gains while a filter knows too little for its steady ones.
 enum class StartUp {
   kGrowingMemory,  // least squares over all points so far, until the steady gains are larger
@@ -51,6 +61,7 @@ struct MemoryLaw {
 struct GainSchedule {
   Gains steady = {};      // at the nominal interval
   double interval = 1.0;  // T, nominal time between updates [s]
+  GainSource source = GainSource::kTable;
   StartUp start_up = StartUp::kGrowingMemory;
   IrregularTime irregular_time = IrregularTime::kFixedGains;
   std::variant<ConstantLaw, IndexLaw, MemoryLaw> law = {};

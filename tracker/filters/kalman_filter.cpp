@@ -164,6 +164,56 @@ void KalmanFilter<Order, D>::coast() {
 }
 
 template <int Order, int D>
+void KalmanFilter<Order, D>::adopt(const Knowledge<D>& known) {
+  const auto derivative = [&](int i) { return i * D; };
+  const auto set_pair = [&](int i, int j, const Eigen::Array<double, D, 1>& value) {
+    for (int axis = 0; axis < D; ++axis) {
+      covariance_(derivative(i) + axis, derivative(j) + axis) = value[axis];
+      covariance_(derivative(j) + axis, derivative(i) + axis) = value[axis];
+    }
+  };
+  const auto unknown = [](double sigma) {
+    return Eigen::Array<double, D, 1>::Constant(sigma * sigma).eval();
+  };
+  estimate_ = {.position = known.state.position};
+  covariance_.setZero();
+  set_pair(0, 0, known.covariance.xx);
+  set_pair(1, 1, unknown(model_.initial_speed));
+  if constexpr (Order == 2) set_pair(2, 2, unknown(model_.initial_acceleration));
+  if (known.order >= 1) {
+    estimate_.velocity = known.state.velocity;
+    set_pair(0, 1, known.covariance.xv);
+    set_pair(1, 1, known.covariance.vv);
+  }
+  if constexpr (Order == 2) {
+    if (known.order >= 2) {
+      estimate_.acceleration = known.state.acceleration;
+      set_pair(0, 2, known.covariance.xa);
+      set_pair(1, 2, known.covariance.va);
+      set_pair(2, 2, known.covariance.aa);
+    }
+  }
+  prior_ = estimate_;
+}
+
+template <int Order, int D>
+Knowledge<D> KalmanFilter<Order, D>::knowledge() const {
+  using Axes = Eigen::Array<double, D, 1>;
+  const auto pair = [&](int i, int j) {
+    Axes values;
+    for (int axis = 0; axis < D; ++axis) values[axis] = covariance_(i * D + axis, j * D + axis);
+    return values;
+  };
+  Knowledge<D> known{Order, estimate_, {pair(0, 0), pair(0, 1), {}, pair(1, 1), {}, {}}};
+  if constexpr (Order == 2) {
+    known.covariance.xa = pair(0, 2);
+    known.covariance.va = pair(1, 2);
+    known.covariance.aa = pair(2, 2);
+  }
+  return known;
+}
+
+template <int Order, int D>
 auto KalmanFilter<Order, D>::position_sigma() const -> Vector {
   return covariance_.diagonal().template head<D>().cwiseMax(0.0).cwiseSqrt();
 }

@@ -68,6 +68,12 @@ class KalmanFilter {
   /// Says that there is no measurement for this prediction, although there should be.
   void coast();
 
+  /// Goes on from what another filter knows at this instant; derivatives that it does not know are
+  /// as uncertain as at first sight.
+  void adopt(const Knowledge<D>& known);
+  /// Without the covariances between the axes.
+  Knowledge<D> knowledge() const;
+
   bool is_started() const { return started_; }
   int updates() const { return updates_; }
   int consecutive_misses() const { return misses_; }
