@@ -7,6 +7,7 @@
 
 #include "sensors/detection.hpp"
 #include "sensors/field_of_view.hpp"
+#include "tools/pipeline/box_tracking.hpp"
 #include "tracker/track.hpp"
 #include "tracker/tracker.hpp"
 #include "tracker/tracker_config.hpp"
@@ -21,6 +22,8 @@ struct OfflineConfig {
   double period = 0.0;  // time between scans [s]; 0: the median of the file
   std::vector<Eigen::Vector2d> field_of_view;
   TrackerConfig tracker;
+  BoxTrackerConfig boxes;
+  BoxOutputConfig box_output;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -41,6 +44,10 @@ struct OfflineConfig {
              .maximum = 1e7,
              .max_items = 2});
     v.field("tracker", &OfflineConfig::tracker, {.meaning = "the tracker, as in a scene"});
+    v.field("boxes", &OfflineConfig::boxes,
+            {.meaning = "the tracker of boxes, instead of the above, for MOTChallenge files"});
+    v.field("box_output", &OfflineConfig::box_output,
+            {.meaning = "which boxes are written for the tracks of a MOTChallenge file"});
   }
 
   template <class Report>
