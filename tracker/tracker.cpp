@@ -29,8 +29,8 @@ void predict(Track& track, double dt) {
 void hit(Track& track, const Scan& scan, std::size_t index) {
   const Detection& found = scan.detections[index];
   track.detection = index;
-  std::visit([&](auto& filter) { filter.update(found.position, found.covariance); }, track.filter);
-  track.residual = found.position - track.prediction.position;
+  const bool is_used = update(track.filter, found.position, found.covariance);
+  if (is_used) track.residual = found.position - track.prediction.position;
   track.innovation_covariance = track.prediction.covariance + found.covariance;
   track.unseen = 0;
   track.history.add_hit();
@@ -130,7 +130,7 @@ FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) 
   MultipleModelConfig all;
   for (const auto& [label, config] : filters) {
     std::visit(
-        [&](const auto& filter) {
+        [&all, &label = label](const auto& filter) {
           if constexpr (std::is_same_v<decltype(filter), const MultipleModelConfig&>) {
             for (const auto& [model, single] : filter.filters) {
               all.filters.emplace(label + " " + model, single);
