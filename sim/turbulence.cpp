@@ -10,7 +10,7 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kMaxNodes = 8192;  // about 40 MB
+constexpr std::size_t kMaxNodes = 50'000;  // about 220 MB
 
 Eigen::Matrix2d transition_over(double x) {
   const double decay = portable::exp(-x);
@@ -158,7 +158,10 @@ Vec2 Turbulence::at(const Vec2& position, double time) {
 }
 
 const Turbulence::Block& Turbulence::block_at(std::uint64_t node_key, std::int64_t index) {
-  if (nodes_.size() > kMaxNodes) forget_old(index);
+  if (index > newest_block_ || nodes_.size() > kMaxNodes) {
+    newest_block_ = index;
+    forget_old(index);
+  }
   Node& node = nodes_[node_key];
   Block& block = node.blocks[static_cast<std::size_t>(index & 1)];
   if (block.index == index) return block;

@@ -192,7 +192,8 @@ class Turbulence {
   std::uint64_t seed_;
   double spacing_ = 1.0;
   std::vector<Axis> axes_;
-  std::unordered_map<std::uint64_t, Node> nodes_;
+  std::unordered_map<std::uint64_t, Node> nodes_;  // those asked for of late
+  std::int64_t newest_block_ = 0;
 };
 
 }  // namespace ghtrack

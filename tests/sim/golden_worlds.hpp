@@ -6,8 +6,8 @@
 
 namespace ghtrack {
 
-/// Trains, balls that hit each other, the ground, a wall and a train, and balloons that touch in
-/// Dryden turbulence.
+/// A train, balls that hit each other, sloping ground, a wall, a box and the train, balloons that
+/// touch in Dryden turbulence, a drone that drops a ball, juggling, and copies.
 WorldConfig busy_world();
 
 /// Objects that never meet: every lift law, the drag crisis, a sprung train that stops at a station

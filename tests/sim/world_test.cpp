@@ -131,16 +131,18 @@ TEST(World, IsNotChangedForOthersByOneMoreTarget) {
   config.targets.insert(config.targets.begin(), target_of(lonely, "a balloon elsewhere"));
   config.targets.insert(config.targets.begin() + 4, target_of(far, "a ball elsewhere"));
   World after(config, 7);
-  std::map<std::string, ObjectId> ids;
-  for (const ObjectInfo& object : after.objects()) ids[object.name] = object.id;
+  const auto by_name = [](World& world, double time) {
+    std::map<std::string, TruthState> states;
+    for (const TruthState& state : world.sample(time).objects) {
+      states[world.objects()[static_cast<std::size_t>(state.id)].name] = state;
+    }
+    return states;
+  };
   for (int i = 0; i <= 40; ++i) {
-    const TruthSnapshot old_truth = before.sample(0.1 * i);
-    const TruthSnapshot new_truth = after.sample(0.1 * i);
-    for (const ObjectInfo& object : before.objects()) {
-      const TruthState& a = old_truth.objects[static_cast<std::size_t>(object.id)];
-      const TruthState& b = new_truth.objects[static_cast<std::size_t>(ids.at(object.name))];
-      ASSERT_EQ(a.position, b.position) << object.name << " at " << 0.1 * i;
-      ASSERT_EQ(a.velocity, b.velocity) << object.name << " at " << 0.1 * i;
+    std::map<std::string, TruthState> crowded = by_name(after, 0.1 * i);
+    for (const auto& [name, state] : by_name(before, 0.1 * i)) {
+      ASSERT_EQ(crowded[name].position, state.position) << name << " at " << 0.1 * i;
+      ASSERT_EQ(crowded[name].velocity, state.velocity) << name << " at " << 0.1 * i;
     }
   }
 }
