@@ -119,17 +119,19 @@ Deviation deviation_from(const std::string& name, int physics_rate) {
   std::vector<TruthState> began;
   Deviation worst;
   std::size_t row = 0;
-  const auto compare = [&](const StepRecord& record) {
-    const std::vector<TruthState>& objects = record.truth.objects;
+  Listener listener;
+  listener.on_observation = [&](const TruthSnapshot& truth, const Observation&) {
+    const std::vector<TruthState>& objects = truth.objects;
     if (began.empty()) began = objects;
-    if (row == times.size() || record.truth.time < times[row] - 1e-9) return;
-    ASSERT_NEAR(record.truth.time, times[row], 1e-9);
+    if (row == times.size() || truth.time < times[row] - 1e-9) return;
+    ASSERT_NEAR(truth.time, times[row], 1e-9);
     for (std::size_t i = 0; i < objects.size(); ++i) {
       worst.add(objects[i], wanted_state(table, row, began[i]));
     }
     ++row;
   };
-  run(scene, world, {.on_scan = compare, .frame_times = {}, .on_frame = {}});
+  listener.on_scan = [](const StepRecord&) {};
+  run(scene, world, listener);
   EXPECT_EQ(row, times.size());
   return worst;
 }
