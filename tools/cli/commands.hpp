@@ -63,16 +63,19 @@ struct GainsCommandOptions {
 };
 
 struct TrackOptions {
-  std::string detections;
+  std::vector<std::string> detections;  // files, or MOTChallenge sequence folders
   std::string format = "auto";
-  std::string config;  // YAML file of a tracker; empty: the defaults
-  std::string output;  // empty: standard output
+  std::string config;             // YAML file of a tracker; empty: the defaults
+  std::string output;             // empty: standard output
+  std::string evaluation_folder;  // for public evaluation kits; empty: none
+  std::string benchmark = "MOT15", split = "train", tracker_name = "ghtrack";
+  bool timings = false;
 };
 
 struct ScoreOptions {
   std::string truth, tracks;
   std::string format = "auto";
-  std::optional<double> gospa_c, gospa_p, gospa_alpha, match_distance;
+  std::optional<double> gospa_c, gospa_p, gospa_alpha, gospa_switching, ospa_p, match_distance;
   std::string per_step;
   bool json = false;
 };

@@ -145,15 +145,29 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
 }
 
 void add_track(CLI::App& app, TrackOptions& options) {
-  CLI::App& command = *app.add_subcommand("track", "Track the detections of a file");
-  command.add_option("DETECTIONS", options.detections, "CSV t,x,y or a MOTChallenge det.txt")
+  CLI::App& command = *app.add_subcommand("track", "Track the detections of files");
+  command
+      .add_option("DETECTIONS", options.detections,
+                  "CSV t,x,y; a MOTChallenge det.txt; a sequence folder with det/det.txt")
       ->required();
   command
       .add_option("--format", options.format, "csv, mot, or auto: mot if there is no header row")
       ->capture_default_str();
   command.add_option("--config", options.config, "YAML file with a tracker, as in a scene");
-  command.add_option("-o,--output", options.output, "file or folder (default: standard output)");
-  command.footer("Examples:\n  ghtrack track out/three_regimes/detections.csv -o tracks.csv");
+  command.add_option("-o,--output", options.output,
+                     "file, or folder for several sequences (default: standard output)");
+  command.add_option("--evaluation-folder", options.evaluation_folder,
+                     "also write truth and results in the layout of TrackEval");
+  command.add_option("--benchmark", options.benchmark, "its name there")->capture_default_str();
+  command.add_option("--split", options.split, "its part there")->capture_default_str();
+  command.add_option("--tracker-name", options.tracker_name, "this tracker's name there")
+      ->capture_default_str();
+  command.add_flag("--timings", options.timings, "say on standard error how long each stage took");
+  command.footer(
+      "Examples:\n"
+      "  ghtrack track out/three_regimes/detections.csv -o tracks.csv\n"
+      "With sequences of MOTChallenge at hand:\n"
+      "  ghtrack track MOT15/train/* --evaluation-folder evaluation");
 }
 
 void add_score(CLI::App& app, ScoreOptions& options) {
@@ -169,6 +183,9 @@ void add_score(CLI::App& app, ScoreOptions& options) {
   command.add_option("--gospa-p", options.gospa_p, "GOSPA, OSPA: exponent");
   command.add_option("--gospa-alpha", options.gospa_alpha,
                      "GOSPA: cost of a missed or false track");
+  command.add_option("--gospa-switching", options.gospa_switching,
+                     "GOSPA: penalty of a change of track [m], adds gospa_switching");
+  command.add_option("--ospa-p", options.ospa_p, "OSPA: exponent of its own, inf is allowed");
   command.add_option("--match-distance", options.match_distance, "largest distance of a match [m]");
   command.add_option("--per-step", options.per_step, "also write the metrics of each step, CSV");
   command.add_flag("--json", options.json, "print JSON");

@@ -32,6 +32,13 @@ ghtrack::ScoreOptions settings(const ScoreOptions& options, bool boxes) {
   result.gospa.alpha = positive(options.gospa_alpha, result.gospa.alpha, "--gospa-alpha");
   if (result.gospa.order < 1.0) throw UsageError("score: --gospa-p must be at least 1");
   if (result.gospa.alpha > 2.0) throw UsageError("score: --gospa-alpha must be at most 2");
+  if (options.gospa_switching) {
+    result.switching_penalty = positive(options.gospa_switching, 0.0, "--gospa-switching");
+  }
+  if (options.ospa_p) {
+    if (!(*options.ospa_p >= 1.0)) throw UsageError("score: --ospa-p must be at least 1");
+    result.ospa_order = options.ospa_p;
+  }
   if (options.match_distance) {
     result.match_distance = positive(options.match_distance, 0.0, "--match-distance");
   }

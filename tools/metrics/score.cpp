@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/metrics/mot_json.hpp"
+#include "tools/metrics/switches.hpp"
 #include "tools/metrics/text_table.hpp"
 #include "tools/record/csv_writer.hpp"
 
@@ -68,11 +69,19 @@ void average(ScoreResult& result) {
     result.gospa_missed += step.gospa_missed;
     result.gospa_false += step.gospa_false;
     result.ospa += step.ospa;
+    result.switches += step.switches;
   }
   for (double* sum : {&result.gospa, &result.gospa_localisation, &result.gospa_missed,
                       &result.gospa_false, &result.ospa}) {
     *sum /= static_cast<double>(result.steps.size());
   }
+  if (!result.options.switching_penalty) return;
+  double sum = 0.0;
+  for (const ScoreStep& step : result.steps) {
+    sum += gospa_with_switches(step.gospa, step.switches, *result.options.switching_penalty,
+                               result.options.gospa.order);
+  }
+  result.gospa_switching = sum / static_cast<double>(result.steps.size());
 }
 
 template <class Row>
@@ -82,6 +91,7 @@ ScoreResult score_rows(std::span<const Row> truth_rows, std::span<const Row> tra
   result.options = options;
   result.boxes = boxes;
   MotScore mot({options.gospa.cutoff, options.gospa.order});
+  SwitchCounter switches;
   Members truth, tracks;
   double squared_error = 0.0;
   std::int64_t pairs = 0;
@@ -96,10 +106,11 @@ ScoreResult score_rows(std::span<const Row> truth_rows, std::span<const Row> tra
     const GospaResult sets = gospa(truth.positions, tracks.positions, options.gospa);
     for (const PointMatch& match : sets.matches) squared_error += match.distance * match.distance;
     pairs += std::ssize(sets.matches);
-    result.steps.push_back({time, static_cast<int>(truth.ids.size()),
-                            static_cast<int>(tracks.ids.size()), sets.gospa, sets.localisation,
-                            sets.missed, sets.false_tracks, sets.missed_count, sets.false_count,
-                            sets.ospa});
+    result.steps.push_back(
+        {time, static_cast<int>(truth.ids.size()), static_cast<int>(tracks.ids.size()), sets.gospa,
+         sets.localisation, sets.missed, sets.false_tracks, sets.missed_count, sets.false_count,
+         ospa(truth.positions, tracks.positions, options.gospa.cutoff, options.order_of_ospa()),
+         switches.add(truth.ids, tracks.ids, sets.matches)});
     add_identities(mot, truth, tracks, boxes, options.matching());
   }
   average(result);
@@ -127,6 +138,9 @@ nlohmann::ordered_json to_json(const ScoreResult& result) {
   json["gospa_missed"] = result.gospa_missed;
   json["gospa_false"] = result.gospa_false;
   json["ospa"] = result.ospa;
+  json["gospa_switching"] =
+      result.gospa_switching ? nlohmann::ordered_json(*result.gospa_switching) : nullptr;
+  json["switches"] = result.switches;
   json["rmse"] = result.rmse ? nlohmann::ordered_json(*result.rmse) : nullptr;
   add_mot(json, result.mot);
   json["steps"] = result.steps.size();
@@ -134,6 +148,12 @@ nlohmann::ordered_json to_json(const ScoreResult& result) {
   parameters["gospa_c"] = result.options.gospa.cutoff;
   parameters["gospa_p"] = result.options.gospa.order;
   parameters["gospa_alpha"] = result.options.gospa.alpha;
+  const double ospa_order = result.options.order_of_ospa();
+  parameters["ospa_p"] = std::isfinite(ospa_order) ? nlohmann::ordered_json(ospa_order)
+                                                   : nlohmann::ordered_json("inf");
+  if (result.options.switching_penalty) {
+    parameters["gospa_switching"] = *result.options.switching_penalty;
+  }
   if (result.boxes) {
     parameters["match_iou"] = 0.5;
   } else {
@@ -158,10 +178,12 @@ std::string per_step_csv(const ScoreResult& result) {
   CsvRow rows;
   for (const ScoreStep& step : result.steps) {
     rows << step.time << step.truths << step.tracks << step.gospa << step.gospa_localisation
-         << step.gospa_missed << step.gospa_false << step.missed << step.false_tracks << step.ospa;
+         << step.gospa_missed << step.gospa_false << step.missed << step.false_tracks << step.ospa
+         << step.switches;
     rows.end();
   }
-  return "t,truths,tracks,gospa,gospa_localisation,gospa_missed,gospa_false,missed,false,ospa\n" +
+  return "t,truths,tracks,gospa,gospa_localisation,gospa_missed,gospa_false,missed,false,ospa,"
+         "switches\n" +
          rows.text();
 }
 

@@ -19,7 +19,11 @@ struct ScoreOptions {
   std::optional<double> match_distance =
       std::nullopt;  // of points, for MOTA, IDF1 and HOTA; c if not given
 
+  std::optional<double> ospa_order = std::nullopt;  // 1 ≤ p ≤ ∞; GOSPA's p if not given
+  std::optional<double> switching_penalty = std::nullopt;  // γ, for GOSPA with switches
+
   double matching() const { return match_distance.value_or(gospa.cutoff); }
+  double order_of_ospa() const { return ospa_order.value_or(gospa.order); }
 };
 
 /// The scores of one instant.
@@ -32,6 +36,7 @@ struct ScoreStep {
   int missed = 0;
   int false_tracks = 0;
   double ospa = 0.0;
+  double switches = 0.0;  // since the instant before, see SwitchCounter
 };
 
 /// Scores of tracks against truth. What is per instant is a mean over the instants in which there
@@ -42,6 +47,8 @@ struct ScoreResult {
   double gospa = 0.0;
   double gospa_localisation = 0.0, gospa_missed = 0.0, gospa_false = 0.0;  // p-th powers
   double ospa = 0.0;
+  double switches = 0.0;                  // in total
+  std::optional<double> gospa_switching;  // GOSPA with switches; absent without a penalty
   std::optional<double> rmse;  // over the pairs of GOSPA's assignment; absent without any
   MotResult mot;
   std::vector<ScoreStep> steps;
