@@ -29,24 +29,39 @@ class Sets {
 
 bool may_meet(const SweptBox& a, const SweptBox& b) {
   return (a.yields || b.yields) && a.owner != b.owner && a.carrier != b.owner &&
-         b.carrier != a.owner && a.low.y() <= b.high.y() && b.low.y() <= a.high.y();
+         b.carrier != a.owner;
+}
+
+/// Pairs of boxes that overlap and may meet, by sweep and prune along x.
+std::vector<std::pair<std::size_t, std::size_t>> overlapping_pairs(
+    const std::vector<SweptBox>& boxes) {
+  struct Entry {  // side by side in memory: most comparisons fail
+    double left, right, bottom, top;
+    std::size_t box;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Vec2& low = boxes[i].low;
+    const Vec2& high = boxes[i].high;
+    entries.push_back({low.x(), high.x(), low.y(), high.y(), i});
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return a.left < b.left; });
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (auto one = entries.begin(); one != entries.end(); ++one) {
+    for (auto other = one + 1; other != entries.end() && other->left <= one->right; ++other) {
+      if (one->bottom > other->top || other->bottom > one->top) continue;
+      if (may_meet(boxes[one->box], boxes[other->box])) pairs.emplace_back(one->box, other->box);
+    }
+  }
+  return pairs;
 }
 
 }  // namespace
 
 std::vector<Cluster> find_clusters(const std::vector<SweptBox>& boxes) {
-  std::vector<std::size_t> order(boxes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return boxes[a].low.x() < boxes[b].low.x(); });
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const SweptBox& box = boxes[order[i]];
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      if (boxes[order[j]].low.x() > box.high.x()) break;
-      if (may_meet(box, boxes[order[j]])) pairs.emplace_back(order[i], order[j]);
-    }
-  }
+  const auto pairs = overlapping_pairs(boxes);
   if (pairs.empty()) return {};
 
   Sets sets(boxes.size());
