@@ -28,7 +28,8 @@ struct CandidateTable {
 /// Detection of a track that got none.
 inline constexpr int kMissed = -1;
 
-/// Which detection each track of a scan gets, and which track each detection.
+/// Which detection each track of a scan gets, and which track each detection. Detections are
+/// counted as the candidates count them.
 struct Pairing {
   std::vector<int> detection_of;  // track, or kMissed
   std::vector<int> track_of;      // detection, or kMissed

@@ -92,13 +92,6 @@ DetectionGrid::DetectionGrid(std::span<const Detection> detections) {
   }
 }
 
-std::vector<int> DetectionGrid::in_order_of_place() const {
-  std::vector<int> order;
-  order.reserve(members_.size());
-  for (const Member& member : members_) order.push_back(member.detection);
-  return order;
-}
-
 int DetectionGrid::column_of(double x) const {
   return cell_at((x - corner_.x()) * cells_per_metre_.x(), columns_);
 }
@@ -109,7 +102,6 @@ int DetectionGrid::row_of(double y) const {
 
 void DetectionGrid::append_row(const Prediction& prediction, double gate,
                                CandidateTable& table) const {
-  const auto first_candidate = static_cast<std::ptrdiff_t>(table.candidates.size());
   if (!members_.empty() && prediction.position.allFinite()) {
     // The ellipse rᵀ S⁻¹ r ≤ gate² reaches gate √S_xx along x, gate √S_yy along y.
     const Eigen::Vector2d reach =
@@ -121,19 +113,15 @@ void DetectionGrid::append_row(const Prediction& prediction, double gate,
     const int last_row = row_of(high.y());
     const double surely_outside = 1.0001 * gate * gate;  // spares a division and a root
     for (int row = row_of(low.y()); row <= last_row; ++row) {
-      const int begin = cell_start_[row * columns_ + first_column];
       const int end = cell_start_[row * columns_ + last_column + 1];
-      for (int i = begin; i < end; ++i) {
-        const Member& member = members_[i];
-        const Quotient quotient(prediction, member.position, member.covariance);
+      for (int i = cell_start_[row * columns_ + first_column]; i < end; ++i) {
+        const Quotient quotient(prediction, members_[i].position, members_[i].covariance);
         if (quotient.numerator > surely_outside * quotient.determinant) continue;
         const double distance = quotient.distance();
-        if (distance <= gate) table.candidates.push_back({member.detection, distance});
+        if (distance <= gate) table.candidates.push_back({i, distance});
       }
     }
   }
-  std::sort(table.candidates.begin() + first_candidate, table.candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.detection < b.detection; });
   table.close_row();
 }
 

@@ -21,37 +21,33 @@ bool is_usable(const Detection& detection);
 /// Mahalanobis distance of a detection from a prediction: √(rᵀ S⁻¹ r), S = P + R.
 double mahalanobis_distance(const Prediction& prediction, const Detection& detection);
 
-/// Finds the detections of a scan that lie near a place without looking at all of them: a uniform
-/// grid over the scan, about one detection per cell.
+/// The usable detections of a scan, in an order of their places that does not depend on the order
+/// of the scan, and a uniform grid over them, about one per cell, that finds those near a place
+/// without looking at all of them.
 class DetectionGrid {
  public:
-  /// Detections that are not usable are never found.
+  /// What a tracker needs of a detection, side by side in memory with its neighbours.
+  struct Member {
+    Eigen::Vector2d position;
+    Eigen::Matrix2d covariance;
+    int detection;  // index in the scan
+  };
+
   explicit DetectionGrid(std::span<const Detection> detections);
 
-  /// The usable detections, neighbours near each other: the same order for every order of the scan.
-  std::vector<int> in_order_of_place() const;
+  const std::vector<Member>& members() const { return members_; }
 
-  /// How many detections are usable.
-  int size() const { return static_cast<int>(members_.size()); }
-
-  /// Appends the row of a track: every detection whose Mahalanobis distance from the prediction is
-  /// at most `gate`, in the order of the scan. The distance is the cost.
+  /// Appends the row of a track: every member whose Mahalanobis distance from the prediction is at
+  /// most `gate`, in the order of the members. The distance is the cost.
   void append_row(const Prediction& prediction, double gate, CandidateTable& table) const;
 
  private:
   int column_of(double x) const;
   int row_of(double y) const;
 
-  /// What gating needs of a detection, side by side in memory with its neighbours.
-  struct Member {
-    Eigen::Vector2d position;
-    Eigen::Matrix2d covariance;
-    int detection;
-  };
-
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  // lower left
   Eigen::Vector2d cells_per_metre_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d largest_variance_ = Eigen::Vector2d::Zero();  // of any detection, per axis
+  Eigen::Vector2d largest_variance_ = Eigen::Vector2d::Zero();  // of any member, per axis
   int columns_ = 1;
   int rows_ = 1;
   std::vector<int> cell_start_;  // of each cell, in members_

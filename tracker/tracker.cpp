@@ -26,9 +26,8 @@ void predict(Track& track, double dt) {
   track.detection.reset();
 }
 
-void hit(Track& track, const Scan& scan, std::size_t index) {
-  const Detection& found = scan.detections[index];
-  track.detection = index;
+void hit(Track& track, const DetectionGrid::Member& found) {
+  track.detection = static_cast<std::size_t>(found.detection);
   const bool is_used = update(track.filter, found.position, found.covariance);
   if (is_used) track.residual = found.position - track.prediction.position;
   track.innovation_covariance = track.prediction.covariance + found.covariance;
@@ -48,6 +47,12 @@ void miss(Track& track, const SensorTraits& sensor) {
 struct Stage {
   std::vector<std::size_t> tracks;  // row by row
   CandidateTable table;
+
+  explicit Stage(std::size_t expected) {
+    tracks.reserve(expected);
+    table.row_start.reserve(expected + 1);
+    table.candidates.reserve(2 * expected);
+  }
 
   void add(std::size_t index, const Track& track, const DetectionGrid& grid, double gate) {
     tracks.push_back(index);
@@ -79,12 +84,13 @@ void assign(const TrackerConfig& config, const std::vector<std::size_t>& tracks,
 
 /// The same when the simulation tells which object made which detection.
 void assign_by_identity(const std::vector<Track>& tracks, std::span<const int> identities,
-                        const Scan& scan, Pairing& pairing) {
+                        const DetectionGrid& grid, Pairing& pairing) {
+  const auto& members = grid.members();
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const auto mine = std::find(identities.begin(), identities.end(), tracks[i].identity);
-    const auto detection = static_cast<std::size_t>(mine - identities.begin());
-    const bool is_seen = mine != identities.end() && is_usable(scan.detections[detection]);
-    pairing.pair(i, is_seen ? static_cast<int>(detection) : kMissed);
+    const auto mine = std::find_if(members.begin(), members.end(), [&](const auto& member) {
+      return identities[member.detection] == tracks[i].identity;
+    });
+    pairing.pair(i, mine != members.end() ? static_cast<int>(mine - members.begin()) : kMissed);
   }
 }
 
@@ -180,8 +186,9 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
   std::vector<Track>& tracks = state.tracks;
 
   const DetectionGrid grid(scan.detections);
-  state.detections_refused += static_cast<int>(scan.detections.size()) - grid.size();
-  Stage confirmed, tentative;
+  const auto& members = grid.members();
+  state.detections_refused += static_cast<std::int64_t>(scan.detections.size() - members.size());
+  Stage confirmed(tracks.size()), tentative(0);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     predict(tracks[i], dt);
     if (is_known) continue;
@@ -189,9 +196,9 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
     stage.add(i, tracks[i], grid, config.gate);
   }
 
-  Pairing pairing(tracks.size(), scan.detections.size());
+  Pairing pairing(tracks.size(), members.size());
   if (is_known) {
-    assign_by_identity(tracks, identities, scan, pairing);
+    assign_by_identity(tracks, identities, grid, pairing);
   } else {
     assign(config, confirmed.tracks, confirmed.table, pairing);
     assign(config, tentative.tracks, still_free(tentative.table, pairing), pairing);
@@ -205,7 +212,7 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
     if (detection == kMissed) {
       miss(tracks[i], sensor);
     } else {
-      hit(tracks[i], scan, static_cast<std::size_t>(detection));
+      hit(tracks[i], members[detection]);
     }
     if (!survives(config, tracks[i])) continue;
     if (alive != i) tracks[alive] = std::move(tracks[i]);
@@ -213,11 +220,12 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
   }
   tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(alive), tracks.end());
 
-  for (const int i : grid.in_order_of_place()) {
-    if (pairing.track_of[i] != kMissed) continue;
-    if (is_known && identities[i] == Track::kUnknown) continue;
-    tracks.push_back(begin_track(design, state.next_id++, scan, static_cast<std::size_t>(i)));
-    if (is_known) tracks.back().identity = identities[i];
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const auto index = static_cast<std::size_t>(members[i].detection);
+    const int identity = is_known ? identities[index] : Track::kUnknown;
+    if (pairing.track_of[i] != kMissed || (is_known && identity == Track::kUnknown)) continue;
+    tracks.push_back(begin_track(design, state.next_id++, scan, index));
+    tracks.back().identity = identity;
   }
   return state;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace ghtrack {
@@ -53,7 +54,10 @@ TEST(Gate, GridFindsTheSameCandidatesAsLookingAtEverything) {
         if (mahalanobis_distance(prediction, detections[i]) <= 3.0) expected.push_back(i);
       }
       std::vector<int> found;
-      for (const Candidate& candidate : table.candidates) found.push_back(candidate.detection);
+      for (const Candidate& candidate : table.candidates) {
+        found.push_back(grid.members()[candidate.detection].detection);
+      }
+      std::sort(found.begin(), found.end());
       ASSERT_EQ(found, expected);
     }
   }
