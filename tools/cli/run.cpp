@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -38,9 +39,13 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   World world = make_world(scene);
   RunWriter files(folder, world.objects(), sensor_names(scene));
   RunMetricsOptions scoring;
-  const SensorTraits first = traits_of(scene.sensors.front());
-  scoring.sigma = first.sigma;
-  scoring.period = first.period;
+  scoring.sigma = 0.0;
+  scoring.period = std::numeric_limits<double>::infinity();
+  for (const SensorConfig& sensor : scene.sensors) {
+    const SensorTraits traits = traits_of(sensor);
+    scoring.sigma = std::max(scoring.sigma, traits.sigma);
+    scoring.period = std::min(scoring.period, traits.period);
+  }
   RunMetrics metrics(world.objects(), scoring);
   std::optional<VideoFrames> frames;
   if (video.value_or(scene.video.has_value())) {

@@ -18,8 +18,8 @@
 namespace ghtrack {
 
 struct RunMetricsOptions {
-  double sigma = 1.0;                                   // noise of the first sensor per axis [m]
-  double period = 1.0;                                  // of its scans [s]
+  double sigma = 1.0;                                   // noise of the coarsest sensor per axis [m]
+  double period = 1.0;                                  // of the quickest sensor's scans [s]
   std::optional<double> cutoff = std::nullopt;          // GOSPA's c [m]; 5 sigma if not given
   double order = 2.0;                                   // GOSPA's p
   double alpha = 2.0;                                   // GOSPA's alpha
