@@ -13,13 +13,14 @@ namespace {
 struct Sighting {
   std::int32_t frame;
   BoundingBox box;
+  Eigen::Vector2d velocity;  // [pixel per frame]
   bool is_confirmed;
 };
 
 using Sightings = std::map<int, std::vector<Sighting>>;  // by id
 
 MotRow row_of(std::int32_t frame, std::int64_t id, const BoundingBox& box) {
-  const Eigen::Vector2d corner = box.low();
+  const Eigen::Vector2d corner = box.top_left();
   return {.frame = frame,
           .id = id,
           .left = corner.x(),
@@ -33,8 +34,9 @@ BoundingBox box_of(const MotRow& row) {
   return {Eigen::Vector2d(row.left, row.top) + 0.5 * size, size};
 }
 
-/// The rows of one track: where it was seen, and the gaps that are short enough.
-void append_rows(const BoxOutputConfig& output, std::int64_t id,
+/// The rows of one track: where it was seen, the gaps that are short enough, and where it may have
+/// gone until the last frame of the sequence.
+void append_rows(const BoxOutputConfig& output, std::int64_t id, std::int32_t last_frame,
                  std::span<const Sighting> sightings, std::vector<MotRow>& rows) {
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     const Sighting& now = sightings[i];
@@ -48,9 +50,15 @@ void append_rows(const BoxOutputConfig& output, std::int64_t id,
     }
     rows.push_back(row_of(now.frame, id, now.box));
   }
+  const Sighting& last = sightings.back();
+  for (std::int32_t k = 1; k <= std::min(output.coast, last_frame - last.frame); ++k) {
+    rows.push_back(
+        row_of(last.frame + k, id, {last.box.centre + k * last.velocity, last.box.size}));
+  }
 }
 
-std::vector<MotRow> rows_of(const BoxOutputConfig& output, const Sightings& tracks) {
+std::vector<MotRow> rows_of(const BoxOutputConfig& output, std::int32_t last_frame,
+                            const Sightings& tracks) {
   std::vector<std::span<const Sighting>> confirmed;
   for (const auto& [id, sightings] : tracks) {
     const auto first = std::find_if(sightings.begin(), sightings.end(),
@@ -62,7 +70,7 @@ std::vector<MotRow> rows_of(const BoxOutputConfig& output, const Sightings& trac
                    [](const auto& a, const auto& b) { return a.front().frame < b.front().frame; });
   std::vector<MotRow> rows;
   for (std::size_t i = 0; i < confirmed.size(); ++i) {
-    append_rows(output, static_cast<std::int64_t>(i) + 1, confirmed[i], rows);
+    append_rows(output, static_cast<std::int64_t>(i) + 1, last_frame, confirmed[i], rows);
   }
   std::sort(rows.begin(), rows.end(), [](const MotRow& a, const MotRow& b) {
     return std::tie(a.frame, a.id) < std::tie(b.frame, b.id);
@@ -82,7 +90,7 @@ BoxTracks track_boxes(const BoxTrackerConfig& config, const BoxOutputConfig& out
     for (const BoxTrack& track : state.tracks) {
       if (!track.detection) continue;
       sightings[track.id].push_back({static_cast<std::int32_t>(scan.time), track.box,
-                                     track.status != TrackStatus::kTentative});
+                                     track.velocity, track.status != TrackStatus::kTentative});
     }
     scan.detections.clear();
   };
@@ -93,7 +101,8 @@ BoxTracks track_boxes(const BoxTrackerConfig& config, const BoxOutputConfig& out
     const bool is_last = i + 1 == detections.size();
     if (is_last || detections[i + 1].frame != row.frame) finish_frame();
   }
-  return {rows_of(output, sightings), std::move(state)};
+  const std::int32_t last_frame = detections.empty() ? 0 : detections.back().frame;
+  return {rows_of(output, last_frame, sightings), std::move(state)};
 }
 
 }  // namespace ghtrack

@@ -15,6 +15,7 @@ struct BoxOutputConfig {
 
   bool from_first_sight = true;
   int longest_gap = 8;
+  int coast = 0;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -23,6 +24,11 @@ struct BoxOutputConfig {
     v.field("longest_gap", &BoxOutputConfig::longest_gap,
             {.meaning = "images without a detection that are filled with boxes in between when the "
                         "track has been seen again; 0: none",
+             .minimum = 0,
+             .maximum = 1e6});
+    v.field("coast", &BoxOutputConfig::coast,
+            {.meaning = "images after the last detection of a track for which its predicted box is "
+                        "written",
              .minimum = 0,
              .maximum = 1e6});
   }

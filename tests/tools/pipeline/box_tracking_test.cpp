@@ -39,6 +39,18 @@ TEST(BoxTracking, LeavesLongGapsOpen) {
   EXPECT_EQ(track_boxes({}, output, walk(40, {21, 22, 23, 24})).rows.size(), 40U);
 }
 
+// Derived: a steady walk goes on along its line, for as long as asked and as there are frames.
+TEST(BoxTracking, WritesPredictedBoxesWhileATrackIsUnseenIfAsked) {
+  std::vector<MotRow> detections = walk(30, {});
+  detections.push_back({.frame = 36, .left = 900, .top = 5, .width = 40, .height = 90});
+  EXPECT_EQ(track_boxes({}, {}, detections).rows.size(), 30U);
+  const std::vector<MotRow> four = track_boxes({}, {.coast = 4}, detections).rows;
+  ASSERT_EQ(four.size(), 34U);
+  EXPECT_EQ(four.back().frame, 34);
+  EXPECT_NEAR(four.back().left, 10.0 + 4.0 * 34, 1.0);
+  EXPECT_EQ(track_boxes({}, {.coast = 50}, detections).rows.back().frame, 36);
+}
+
 // Derived: the fourth detection confirms; what came before is written or not.
 TEST(BoxTracking, WritesTheTimeBeforeConfirmationIfAsked) {
   const BoxOutputConfig only_confirmed{.from_first_sight = false};

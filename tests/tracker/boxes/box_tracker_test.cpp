@@ -51,14 +51,6 @@ std::vector<BoxScan> street(int images, double zoom, const Vector2d& shift) {
   return scans;
 }
 
-// Derived: areas by hand: 40 × 100 boxes, 20 apart in x, share 20 × 100 of 60 × 100.
-TEST(BoundingBox, IntersectionOverUnion) {
-  EXPECT_DOUBLE_EQ(intersection_over_union(box_at(0, 0), box_at(20, 0)), 1.0 / 3.0);
-  EXPECT_DOUBLE_EQ(intersection_over_union(box_at(0, 0), box_at(0, 0)), 1.0);
-  EXPECT_EQ(intersection_over_union(box_at(0, 0), box_at(40, 0)), 0.0);
-  EXPECT_EQ(intersection_over_union(box_at(0, 0), box_at(-80, 300)), 0.0);
-}
-
 // Derived: the fourth hit confirms; a confirmed track coasts on at its velocity and ends when it
 // has not been seen for 20 images.
 TEST(BoxTracker, ConfirmsCoastsAndLetsGo) {
