@@ -38,6 +38,7 @@ struct TrackEstimate {
   std::optional<Eigen::Vector2d> residual;                   // absent when no detection was used
   std::optional<std::size_t> detection;                      // index in the scan, when one was used
   Eigen::Vector2d sigma = Eigen::Vector2d::Zero();           // predicted 1-sigma position error [m]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // predicted, of the position's error [m²]
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of the prior's residual [m²]
 
   // What the filter's closed forms say of its error: the noise that remains when the target moves

@@ -235,21 +235,23 @@ TrackSnapshot snapshot(const TrackerState& state) {
   result.tracks.reserve(state.tracks.size());
   for (const Track& track : state.tracks) {
     const Kinematics<2>& now = estimate(track.filter);
-    result.tracks.push_back({.id = track.id,
-                             .status = track.status,
-                             .filter = std::string(name(track.filter)),
-                             .model = std::string(model_name(track.filter)),
-                             .label = track.label,
-                             .position = now.position,
-                             .velocity = now.velocity,
-                             .acceleration = now.acceleration,
-                             .prior_position = track.prediction.position,
-                             .residual = track.residual,
-                             .detection = track.detection,
-                             .sigma = position_sigma(track.filter),
-                             .innovation_covariance = track.innovation_covariance,
-                             .gains = steady_gains(track.filter),
-                             .noise_sigma = noise_sigma(track.filter)});
+    result.tracks.push_back(
+        {.id = track.id,
+         .status = track.status,
+         .filter = std::string(name(track.filter)),
+         .model = std::string(model_name(track.filter)),
+         .label = track.label,
+         .position = now.position,
+         .velocity = now.velocity,
+         .acceleration = now.acceleration,
+         .prior_position = track.prediction.position,
+         .residual = track.residual,
+         .detection = track.detection,
+         .sigma = position_sigma(track.filter),
+         .covariance = innovation_covariance(track.filter, Eigen::Matrix2d::Zero()),
+         .innovation_covariance = track.innovation_covariance,
+         .gains = steady_gains(track.filter),
+         .noise_sigma = noise_sigma(track.filter)});
     add_lag(result.tracks.back(), track.filter);
   }
   return result;

@@ -159,8 +159,8 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
     for (std::size_t i = 0; i < squares->size(); ++i) tally.floor_square[i] += (*squares)[i];
     ++tally.floor_count;
   }
-  if (track.sigma.minCoeff() > 0.0) {
-    tally.nees.add(error.cwiseQuotient(track.sigma).squaredNorm());
+  if (track.covariance.determinant() > 0.0) {
+    tally.nees.add(error.dot(track.covariance.inverse() * error));
   }
   if (track.residual) {
     const Vec2& residual = *track.residual;

@@ -52,7 +52,7 @@ struct ObjectReport {
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
   std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
-  std::optional<double> nees;                  // mean of ex²/σx² + ey²/σy²; 2 if consistent
+  std::optional<double> nees;                  // mean of eᵀ P⁻¹ e; 2 if consistent
   std::optional<Interval> nees_bounds95;
   std::optional<double> nis;  // mean of rᵀ S⁻¹ r; 2 if consistent
   std::optional<Interval> nis_bounds95;

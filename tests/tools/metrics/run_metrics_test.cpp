@@ -59,6 +59,7 @@ TEST(RunMetrics, MeasuresErrorsPerObject) {
     TrackEstimate estimate = track(1, {0.0, 0.2});
     estimate.velocity = {1.0, 2.0};
     estimate.sigma = {0.1, 0.1};
+    estimate.covariance = estimate.sigma.cwiseAbs2().asDiagonal();
     estimate.noise_sigma = {0.1, 0.1};
     estimate.detection = 0;
     estimate.residual = Vec2(0.6, 0.8);
@@ -152,6 +153,25 @@ TEST(RunMetrics, FollowsDetectionsNotDistances) {
   EXPECT_EQ(report.total.mot.clear.matches, 10);  // … of the stray track that is near
 }
 
+// Derived: along the long axis of a turned error ellipse (σ 1 and 0.1) an error of 1 has NEES 1,
+// across it 100; the sigmas per axis alone would say 1.98 both times.
+TEST(RunMetrics, WeighsErrorsByTheirWholeCovariance) {
+  const Vec2 along = Vec2(1.0, 1.0).normalized();
+  const Vec2 across(-along.y(), along.x());
+  for (const auto& [error, nees] : {std::pair(along, 1.0), std::pair(across, 100.0)}) {
+    RunMetrics metrics({object(0, "ball")}, {});
+    for (int i = 0; i < 40; ++i) {
+      StepRecord record = one_object(i);
+      TrackEstimate estimate = track(1, error);
+      estimate.detection = 0;
+      estimate.covariance = along * along.transpose() + 0.01 * across * across.transpose();
+      record.tracks.tracks = {estimate};
+      add(metrics, record);
+    }
+    EXPECT_NEAR(*metrics.report().objects[0].nees, nees, 1e-9);
+  }
+}
+
 // Property: white errors of the predicted size pass: NEES and NIS within their bounds, and the
 // measured RMSE's interval holds the predicted one. Two in twenty such checks may fail by chance;
 // the seed is fixed.
@@ -165,6 +185,7 @@ TEST(RunMetrics, FindsAConsistentFilterConsistent) {
     const double y = noise(random);
     TrackEstimate estimate = track(1, {x, y});
     estimate.sigma = {0.25, 0.25};
+    estimate.covariance = estimate.sigma.cwiseAbs2().asDiagonal();
     estimate.noise_sigma = estimate.sigma;
     estimate.detection = 0;
     const double rx = noise(random);
