@@ -19,6 +19,9 @@ int main(int argc, char** argv) {
   long missed = 0;
   double total = 0.0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    if (seed % 1000 == 0) {
+      std::fprintf(stderr, "\rseed %ju", static_cast<std::uintmax_t>(seed));
+    }
     try {
       const ghtrack::RandomRun run = ghtrack::run_random_world(seed);
       times.emplace_back(run.cpu_time, seed);
@@ -31,6 +34,7 @@ int main(int argc, char** argv) {
     }
     ++failures;
   }
+  std::fputc('\n', stderr);
   std::sort(times.rbegin(), times.rend());
   times.resize(std::min<std::size_t>(times.size(), 10));
   for (const auto& [time, seed] : times) {
