@@ -213,5 +213,55 @@ tracker:
   }
 }
 
+// Property: what a late radar's replayed scans are worth lies between having them at once and not
+// having them at all.
+TEST_F(Run, ReplayedScansHelpLessThanPromptOnesAndMoreThanNone) {
+  const auto error_with = [&](const std::string& option) {
+    const Outcome run = ghtrack("run " + quoted(scene_file("sensors/late_radar.yaml")) +
+                                " -o results --no-video " + option);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return metrics_of(folder() / "results" / "metrics.json");
+  };
+  const nlohmann::json prompt = error_with("--set 'sensors[radar].latency=0'");
+  const nlohmann::json replayed = error_with("");
+  const nlohmann::json refused = error_with("--set tracker.late_scans=refuse");
+  EXPECT_LT(prompt["total"]["rmse_position"], replayed["total"]["rmse_position"]);
+  EXPECT_LT(replayed["total"]["rmse_position"], refused["total"]["rmse_position"]);
+  EXPECT_EQ(prompt["arrivals"]["scans"]["radar"]["in_order"], 45);
+  EXPECT_EQ(replayed["arrivals"]["scans"]["radar"]["replayed"], 45);
+  EXPECT_EQ(refused["arrivals"]["scans"]["radar"]["refused"], 45);
+}
+
+// Derived: two sequence folders become truth, seqmap and results for a public evaluation kit; on
+// its own truth a tracker of perfect boxes scores all but the first images.
+TEST_F(Run, TracksSequenceFoldersForAnEvaluationKit) {
+  for (const std::string name : {"street", "square"}) {
+    fs::create_directories(folder() / "set" / name / "det");
+    fs::create_directories(folder() / "set" / name / "gt");
+    std::string detections, truth;
+    for (int frame = 1; frame <= 40; ++frame) {
+      const std::string box = std::to_string(10 + 3 * frame) + ",20,30,60";
+      detections += std::to_string(frame) + ",-1," + box + ",0.9\n";
+      truth += std::to_string(frame) + ",1," + box + ",1,-1,-1,-1\n";
+    }
+    write(folder() / "set" / name / "det" / "det.txt", detections);
+    write(folder() / "set" / name / "gt" / "gt.txt", truth);
+    write(folder() / "set" / name / "seqinfo.ini", "[Sequence]\nname=" + name +
+                                                       "\nframeRate=25\nseqLength=40\n"
+                                                       "imWidth=640\nimHeight=480\n");
+  }
+  const Outcome run = ghtrack("track set/street set/square --evaluation-folder kit --timings");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("80 scans"));
+  EXPECT_EQ(contents(folder() / "kit/gt/seqmaps/MOT15-train.txt"), "name\nstreet\nsquare\n");
+  const Outcome score = ghtrack(
+      "score --truth kit/gt/MOT15-train/square/gt/gt.txt "
+      "--tracks kit/trackers/MOT15-train/ghtrack/data/square.txt --json");
+  ASSERT_EQ(score.exit_code, 0) << score.err;
+  EXPECT_GT(nlohmann::json::parse(score.out).at("mota"), 0.9);
+  EXPECT_EQ(ghtrack("track set/street set/street --evaluation-folder kit").exit_code, 2);
+  EXPECT_EQ(ghtrack("track set --evaluation-folder kit").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace ghtrack::testing

@@ -102,6 +102,7 @@ void RunMetrics::score_sets(const StepRecord& record) {
   sums_.gospa_missed += sets.missed;
   sums_.gospa_false += sets.false_tracks;
   sums_.ospa += sets.ospa;
+  sums_.switches += switches_.add(truth_ids, track_ids, sets.matches);
   sums_.missed_targets += sets.missed_count;
   sums_.false_tracks += sets.false_count;
   mot_.add_points(truth_ids, truth, track_ids, tracks, options_.matching());

@@ -12,6 +12,7 @@
 #include "tools/metrics/error_floor.hpp"
 #include "tools/metrics/gospa.hpp"
 #include "tools/metrics/mot_score.hpp"
+#include "tools/metrics/switches.hpp"
 #include "tools/record/run_counts.hpp"
 #include "tools/record/step_record.hpp"
 
@@ -70,6 +71,7 @@ struct TotalReport {
   std::optional<double> rmse_velocity;                                     // [m/s]
   std::optional<double> measurement_rmse;                                  // [m]
   std::optional<double> mai;                                               // [m]
+  double switches = 0.0;  // over the run, of GOSPA's assignment: see SwitchCounter
   MotResult mot;
 };
 
@@ -140,6 +142,7 @@ class RunMetrics {
   std::vector<ObjectTally> tallies_;  // by object
   Following following_;
   ErrorFloor floor_;
+  SwitchCounter switches_;
   MotScore mot_;
   TotalReport sums_;  // GOSPA and its kin, not yet divided by the number of scans
 };

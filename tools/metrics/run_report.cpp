@@ -86,6 +86,7 @@ Json total_json(const TotalReport& total) {
   json["gospa_localisation"] = number(total.gospa_localisation);
   json["gospa_missed"] = number(total.gospa_missed);
   json["gospa_false"] = number(total.gospa_false);
+  json["switches"] = total.switches;
   json["ospa"] = number(total.ospa);
   json["missed_targets"] = number(total.missed_targets);
   json["false_tracks"] = number(total.false_tracks);
