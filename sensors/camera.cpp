@@ -104,8 +104,11 @@ std::optional<Detection> Camera::measure(const Vec2& truth, const Vec2&, const V
 }
 
 Detection Camera::false_alarm(const Vec2& place, const Vec2&) const {
-  const auto pixel = to_pixel(place);
-  return report_of(pixel.value_or(middle_of(image))).value_or(Detection{});
+  if (const auto pixel = to_pixel(place)) {
+    if (const auto detection = report_of(*pixel)) return *detection;
+  }
+  const double variance = typical_sigma() * typical_sigma();  // rounded beyond the horizon
+  return {.position = place, .covariance = variance * Eigen::Matrix2d::Identity(), .label = {}};
 }
 
 /// What it says of something at this pixel; nothing above the horizon.

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "sensors/view_geometry.hpp"
 #include "sim/random.hpp"
 
 namespace ghtrack {
@@ -317,6 +318,41 @@ TEST(Sensor, OfEveryKindReportsUsableDetectionsInItsView) {
       EXPECT_GT(detection.covariance.determinant(), 0.0);
     }
     EXPECT_GT(traits_of(sensor).sigma, 0.0);
+  }
+}
+
+// Property: whatever a scene may say, detections are finite with a positive definite covariance.
+TEST(Sensor, ReportsFiniteDetectionsForExtremeSettings) {
+  Pinhole steep{.position = Vec2(0, 0), .distance = 5.0, .focal_px = 2000.0, .pan_deg = 60.0};
+  Camera tilted;
+  tilted.lens = steep;
+  tilted.noise_px = 50.0;
+  tilted.quantum_px = 700.0;
+  Radar coarse;
+  coarse.sigma_range = 1e5;
+  coarse.sigma_bearing_deg = 45.0;
+  coarse.max_range = 1e6;
+  Radar fine;
+  fine.sigma_range = 1e-6;
+  fine.sigma_bearing_deg = 1e-3;
+  for (const SensorModel& model : {SensorModel(tilted), SensorModel(coarse), SensorModel(fine)}) {
+    SensorConfig sensor;
+    sensor.name = "extreme";
+    sensor.model = model;
+    sensor.student_dof = 1.0;
+    sensor.outlier_probability = 0.5;
+    sensor.outlier_scale = 1e4;
+    sensor.clutter = 5.0;
+    for (int scan = 0; scan < 300; ++scan) {
+      const Vec2 place = point_in(sensor.view(), 0.3, 0.6);
+      const auto seen = observe(sensor, 0, scan, truth_at(0, {place}), setting(16));
+      for (const Detection& detection : seen.scan.detections) {
+        ASSERT_TRUE(detection.position.allFinite());
+        ASSERT_TRUE(detection.covariance.allFinite());
+        ASSERT_GT(detection.covariance(0, 0), 0.0);
+        ASSERT_GT(detection.covariance.determinant(), 0.0);
+      }
+    }
   }
 }
 
