@@ -20,7 +20,8 @@ BEYOND_A_SCHEMA = {
     "empty_name", "long_text", "balls_inside_each_other", "camera_sees_the_horizon",
     "nearest_target_that_is_not_there", "sector_the_wrong_way_round", "ball_inside_a_box",
     "below_the_ground", "drone_plan_backwards", "ground_profile_backwards", "juggled_with_a_velocity",
-    "released_by_nobody", "released_too_early", "too_many_copies",
+    "released_by_nobody", "released_too_early", "too_many_copies", "no_models",
+    "schedule_without_process_noise",
     # YAML's own matters, and numbers that only a YAML 1.1 reader takes for numbers:
     "anchor_and_alias", "duplicate_key", "merge_key", "number_with_leading_zero", "number_in_hex",
     "number_with_plus", "number_with_underscore", "not_finite", "second_document", "tag",
