@@ -16,7 +16,10 @@ PlanarMotion JugglingPattern::throw_at(int phase) const {
   const bool back = (phase / 2) % 2 == 1;
   const Vec2& here = back ? juggling_.to : from_;
   const Vec2& there = back ? from_ : juggling_.to;
-  return {here, (there - here) / juggling_.flight - 0.5 * juggling_.flight * gravity_, gravity_};
+  const Vec2 way = there - here;
+  const double distance = way.norm();
+  const Vec2 flown = distance > 0.0 ? Vec2((1.0 + juggling_.scoop / distance) * way) : way;
+  return {here, flown / juggling_.flight - 0.5 * juggling_.flight * gravity_, gravity_};
 }
 
 PlanarMotion Carry::at(double time) const {

@@ -15,6 +15,7 @@ struct Juggling {
   Vec2 to = Vec2::Zero();
   double flight = 0.6;
   double hold = 0.3;
+  double scoop = 0.0;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -30,6 +31,12 @@ struct Juggling {
     v.field(
         "hold", &Juggling::hold,
         {.unit = "s", .meaning = "from a catch to the throw", .minimum = 0.05, .maximum = 60.0});
+    v.field("scoop", &Juggling::scoop,
+            {.unit = "m",
+             .meaning = "a hand catches so far beyond the point from which it throws, so that "
+                        "crossing balls do not meet",
+             .minimum = 0.0,
+             .maximum = 10.0});
   }
 };
 
@@ -44,7 +51,7 @@ class JugglingPattern {
   double end_of(int phase) const;
 
   /// Where and with what velocity the flight of this phase begins: without air it would end exactly
-  /// in the other hand.
+  /// where the other hand catches.
   PlanarMotion throw_at(int phase) const;
 
  private:

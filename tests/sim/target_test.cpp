@@ -159,7 +159,7 @@ TEST(Juggling, GoesFromHandToHand) {
 TEST(Juggling, IsSmooth) {
   ThrownBall ball;
   ball.position = Vec2(0.0, 1.2);
-  ball.juggle = Juggling{.to = Vec2(0.7, 1.3), .flight = 0.8, .hold = 0.25};
+  ball.juggle = Juggling{.to = Vec2(0.7, 1.3), .flight = 0.8, .hold = 0.25, .scoop = 0.2};
   World world(world_of({target_of(ball)}), 1);
   constexpr double kStep = 1.0 / 480.0;
   TruthState before = state_at(world, 0.0);

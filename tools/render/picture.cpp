@@ -224,7 +224,8 @@ void Picture::draw_hud(Canvas& canvas, const VideoFrame& frame) {
   std::u32string facts = U"seed " + drawable(std::to_string(scene_.seed));
   for (const SensorDrawing& sensor : scene_.sensors)
     facts += U"    " + drawable(sensor.name, 24) + U" " + number("%.3g Hz", sensor.rate);
-  if (options_.slow != 1.0) facts += U"    " + number("%.3g× slow motion", options_.slow);
+  if (options_.slow > 1.0) facts += U"    " + number("%.3g× slow motion", options_.slow);
+  if (options_.slow < 1.0) facts += U"    " + number("%.3g× faster", 1.0 / options_.slow);
   const int space =
       static_cast<int>(area.width - 4.0 * margin) - fonts_.regular.width(counts, letters);
   canvas.text(fonts_.regular, fonts_.regular.fitted(facts, letters, std::max(0, space)), letters,
