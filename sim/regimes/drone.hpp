@@ -157,6 +157,7 @@ struct Drone {
 
   template <class Report>
   void check(Report&& report) const {
+    if (drag_area > mass) report("drag_area", "must be at most 1 m^2 per kilogram of mass");
     for (std::size_t i = 1; i < plan.size(); ++i) {
       if (plan[i].at > plan[i - 1].at) continue;
       report("plan", "each order must come later than the one before");

@@ -175,6 +175,9 @@ struct ThrownBall {
     if (mass < 4.0 * radius * radius * radius) {
       report("mass", "the ball must not be lighter than air: at least 1 kg per cubic metre");
     }
+    if (juggle && !((juggle->to - position).norm() <= 400.0 * juggle->flight)) {
+      report("juggle", "the hands are too far apart: the ball would have to fly at over 400 m/s");
+    }
     if (spin && spin_rpm) report("spin_rpm", "give either spin or spin_rpm, not both");
   }
 };

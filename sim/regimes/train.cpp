@@ -87,6 +87,14 @@ double TrainModel::next_kink(const State& state, double time) const {
   return kink;
 }
 
+double TrainModel::longest_step(const State& state) const {
+  double fastest = 0.0;
+  for (const double speed : state.speed) fastest = std::max(fastest, std::abs(speed));
+  const double drag_rate =
+      (train_.davis_b + 2.0 * train_.davis_c * fastest) / train_.mass;  // [1/s]
+  return std::min(longest_step_, 0.5 / (drag_rate + 1e-9));
+}
+
 double TrainModel::build_up(const Brake& brake) const {
   return brake.brake == BrakeKind::kService ? train_.service_brake_build_up
                                             : train_.emergency_brake_build_up;
@@ -265,7 +273,7 @@ void TrainModel::advance(State& state, const Environment&, double from, double t
   double time = from;
   while (time < to) {
     decide(state, time);
-    const double end = std::min({to, next_kink(state, time), time + longest_step_});
+    const double end = std::min({to, next_kink(state, time), time + longest_step(state)});
     State next = moved(state, time, end - time);
     // Where a car comes to a stand, or the first reaches the place of the next phase, the
     // equations change: the step ends there.

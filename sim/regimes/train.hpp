@@ -294,6 +294,7 @@ class TrainModel {
   bool reached_next_phase(const State& state) const;
   void decide(State& state, double time) const;
   double next_kink(const State& state, double time) const;
+  double longest_step(const State& state) const;
   double build_up(const Brake& brake) const;
   double traction_limit(double speed) const;
   Effort effort(const State& state, double time) const;
@@ -311,7 +312,7 @@ class TrainModel {
   Train train_;
   RailLine track_;
   std::vector<double> masses_;  // of what moves by itself: the train, or each sprung car [kg]
-  double longest_step_ = std::numeric_limits<double>::infinity();  // [s]
+  double longest_step_ = std::numeric_limits<double>::infinity();  // that the couplers allow [s]
 };
 
 }  // namespace ghtrack
