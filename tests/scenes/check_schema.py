@@ -21,6 +21,7 @@ BEYOND_A_SCHEMA = {
     "nearest_target_that_is_not_there", "sector_the_wrong_way_round", "ball_inside_a_box",
     "below_the_ground", "drone_plan_backwards", "ground_profile_backwards", "juggled_with_a_velocity",
     "released_by_nobody", "released_too_early", "too_many_copies", "no_models",
+    "drone_lighter_than_paper", "juggled_too_far",
     "schedule_without_process_noise",
     # YAML's own matters, and numbers that only a YAML 1.1 reader takes for numbers:
     "anchor_and_alias", "duplicate_key", "merge_key", "number_with_leading_zero", "number_in_hex",
