@@ -172,7 +172,8 @@ const Filter& TrackerDesign::filter_for(std::string_view label, int sensor) cons
 }
 
 TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& scan,
-                  std::span<const int> identities) {
+                  std::span<const int> identities, StepTimes* times) {
+  StepClock clock(times);
   const TrackerConfig& config = design.config();
   const SensorTraits& sensor = design.sensor(scan.sensor);
   const bool is_known = config.association == Association::kKnown;
@@ -196,6 +197,8 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
     stage.add(i, tracks[i], grid, config.gate);
   }
 
+  clock.finished(&StepTimes::predict);
+
   Pairing pairing(tracks.size(), members.size());
   if (is_known) {
     assign_by_identity(tracks, identities, grid, pairing);
@@ -205,6 +208,7 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
   }
 
   note_rivals(config.merge, confirmed.tracks, confirmed.table, pairing, tracks);
+  clock.finished(&StepTimes::associate);
 
   std::size_t alive = 0;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
@@ -219,6 +223,7 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
     ++alive;
   }
   tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(alive), tracks.end());
+  clock.finished(&StepTimes::update);
 
   for (std::size_t i = 0; i < members.size(); ++i) {
     const auto index = static_cast<std::size_t>(members[i].detection);
@@ -227,6 +232,7 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
     tracks.push_back(begin_track(design, state.next_id++, scan, index));
     tracks.back().identity = identity;
   }
+  clock.finished(&StepTimes::begin);
   return state;
 }
 

@@ -13,6 +13,7 @@
 #include "tracker/filters/filter.hpp"
 #include "tracker/gate.hpp"
 #include "tracker/hit_history.hpp"
+#include "tracker/step_times.hpp"
 #include "tracker/track.hpp"
 #include "tracker/tracker_config.hpp"
 
@@ -81,8 +82,9 @@ class TrackerDesign {
 /// counted. A miss counts only where the sensor could have seen the target.
 /// @param identities  for `association: known`: the object behind each detection of the scan,
 ///                    Track::kUnknown for clutter; ignored otherwise
+/// @param times       where to add the time of each stage; the result does not depend on it
 TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& scan,
-                  std::span<const int> identities = {});
+                  std::span<const int> identities = {}, StepTimes* times = nullptr);
 
 /// What the tracker says after its latest scan.
 TrackSnapshot snapshot(const TrackerState& state);

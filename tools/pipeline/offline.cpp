@@ -28,7 +28,8 @@ SensorTraits traits_of(const OfflineConfig& config, double period) {
 }  // namespace
 
 TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> scans,
-                           const std::function<void(const TrackSnapshot&)>& on_scan) {
+                           const std::function<void(const TrackSnapshot&)>& on_scan,
+                           StepTimes* times) {
   const double period = config.period > 0.0 ? config.period : median_period(scans);
   int sensors = 1;
   for (const Scan& scan : scans) sensors = std::max(sensors, scan.sensor + 1);
@@ -37,7 +38,7 @@ TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> sc
   const Eigen::Matrix2d covariance = config.noise * config.noise * Eigen::Matrix2d::Identity();
   TrackerState state;
   const auto process = [&](const Scan& scan) {
-    state = step(design, std::move(state), scan);
+    state = step(design, std::move(state), scan, {}, times);
     on_scan(snapshot(state));
   };
   for (std::size_t i = 0; i < scans.size(); ++i) {

@@ -61,8 +61,10 @@ struct OfflineConfig {
 /// the length of a gap costs nothing.
 /// @param scans     by time
 /// @param on_scan   gets the tracks after each scan, the empty ones included
+/// @param times     where to add the time of the tracker's stages
 /// @return the tracker's state at the end, with the counts of what was refused
 TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> scans,
-                           const std::function<void(const TrackSnapshot&)>& on_scan);
+                           const std::function<void(const TrackSnapshot&)>& on_scan,
+                           StepTimes* times = nullptr);
 
 }  // namespace ghtrack
