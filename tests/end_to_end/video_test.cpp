@@ -35,6 +35,21 @@ TEST(Video, IsH264WithTheSceneSizeRateAndNumberOfFrames) {
   EXPECT_EQ(stream.at("nb_read_frames"), "60");
 }
 
+// Property: filters are compared on one run, in one video; a scene that names none is told so.
+TEST(Video, PutsFiltersSideBySide) {
+  const TemporaryFolder folder;
+  const std::string compare = "ghtrack video --compare -o compared.mp4 '";
+  const Outcome three =
+      shell(compare + scene_file("throwing.yaml").string() + "' --to 1", folder.path());
+  ASSERT_EQ(three.exit_code, 0) << three.err;
+  EXPECT_EQ(first_stream(folder.path() / "compared.mp4").at("nb_read_frames"), "30");
+  const Outcome none =
+      shell(compare + scene_file("trains.yaml").string() + "' --to 1 --set 'compare={filters: {}}'",
+            folder.path());
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, ::testing::HasSubstr("--compare needs 2 to 6 filters"));
+}
+
 // Property: the same scene gives the same bytes, and pictures change no result.
 TEST(Video, RepeatsItselfByteForByteAndChangesNoResult) {
   const TemporaryFolder folder;

@@ -38,6 +38,7 @@ struct VideoCommandOptions {
   std::vector<std::string> show, hide;
   std::string encoder = "auto";
   std::string poster;  // PNG file; empty: none
+  bool compare = false;
 };
 
 struct FilterCommandOptions {

@@ -64,9 +64,12 @@ void add_video(CLI::App& app, VideoCommandOptions& options) {
   command.add_option("--encoder", options.encoder,
                      "auto, ffmpeg (a pipe to the program, if it is installed) or opencv");
   command.add_option("--poster", options.poster, "also write the last picture to this PNG file");
+  command.add_flag("--compare", options.compare,
+                   "the filters under `compare` in the scene side by side, on the same detections");
   command.footer(
       "Examples:\n"
       "  ghtrack video scenes/throwing.yaml -o throwing.mp4\n"
+      "  ghtrack video scenes/throwing.yaml --compare --to 4 -o compared.mp4\n"
       "  ghtrack video scenes/balloons.yaml --size 1920x1080 --fps 60 --slow 2 --to 5 -o slow.mp4\n"
       "  ghtrack video scenes/trains.yaml --from 4 --to 4 -o picture.png");
 }

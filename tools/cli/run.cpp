@@ -49,7 +49,8 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   RunMetrics metrics(world.objects(), scoring);
   std::optional<VideoFrames> frames;
   if (video.value_or(scene.video.has_value())) {
-    frames.emplace(scene, world, video_options(scene, world, folder / "video.mp4"), manners.quiet);
+    frames.emplace(scene, world, video_options(scene, world, folder / "video.mp4"),
+                   std::vector<Contender>{}, manners.quiet);
   }
 
   Listener listener;

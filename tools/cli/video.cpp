@@ -79,9 +79,11 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
     make_folder(folder);
     path = folder / "video.mp4";
   }
+  std::vector<Contender> contenders;
+  if (options.compare) contenders = contenders_of(*scene);
   World world = make_world(*scene);
   VideoFrames frames(*scene, world, changed_by(options, video_options(*scene, world, path)),
-                     manners.quiet);
+                     std::move(contenders), manners.quiet);
   Listener listener;
   listener.on_scan = [&](const StepRecord& record) { frames.add_scan(record); };
   listener.on_late_scan = [&](const Observation& late) { frames.add_late_scan(late); };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 #include <variant>
 
 #include "sensors/view_geometry.hpp"
@@ -31,8 +32,10 @@ std::vector<Vec2> rails_of(const Train& train) {
   return rails;
 }
 
-render::SceneDrawing drawing_of(const WorldScene& scene, const World& world) {
+render::SceneDrawing drawing_of(const WorldScene& scene, const World& world,
+                                const std::vector<Contender>& contenders) {
   render::SceneDrawing drawing;
+  for (const Contender& contender : contenders) drawing.panels.push_back(contender.drawing());
   drawing.title = scene.name;
   drawing.seed = scene.seed;
   drawing.duration = scene.duration;
@@ -84,12 +87,16 @@ render::VideoOptions video_options(const WorldScene& scene, const World& world,
 }
 
 VideoFrames::VideoFrames(const WorldScene& scene, const World& world,
-                         const render::VideoOptions& options, bool quiet)
-    : VideoFrames(world, options, drawing_of(scene, world), scene.duration, quiet) {}
+                         const render::VideoOptions& options, std::vector<Contender> contenders,
+                         bool quiet)
+    : VideoFrames(world, options, contenders, drawing_of(scene, world, contenders), scene.duration,
+                  quiet) {}
 
 VideoFrames::VideoFrames(const World& world, const render::VideoOptions& options,
-                         const render::SceneDrawing& drawing, double duration, bool quiet)
+                         std::vector<Contender> contenders, const render::SceneDrawing& drawing,
+                         double duration, bool quiet)
     : world_(world),
+      contenders_(std::move(contenders)),
       writer_(options, drawing),
       times_(frame_times(options, duration)),
       progress_("video", "frames", times_.size(), quiet) {
@@ -102,12 +109,17 @@ VideoFrames::VideoFrames(const World& world, const render::VideoOptions& options
 
 void VideoFrames::add_scan(const StepRecord& record) {
   latest_[record.observation.scan.sensor] = record.observation;
-  frame_.panels.front().tracks = record.tracks;
+  if (contenders_.empty()) frame_.panels.front().tracks = record.tracks;
+  for (Contender& contender : contenders_) {
+    contender.add(record.observation);
+    contender.score(record.truth);
+  }
   ++frame_.scans;
 }
 
 void VideoFrames::add_late_scan(const Observation& observation) {
   latest_[observation.scan.sensor] = observation;
+  for (Contender& contender : contenders_) contender.add(observation);
   ++frame_.scans;
 }
 
@@ -116,6 +128,10 @@ void VideoFrames::add_frame(const TruthSnapshot& truth) {
   frame_.truth = truth;
   for (render::WindSample& sample : frame_.wind) {
     sample.velocity = world_.environment().wind().at(sample.position, truth.time);
+  }
+  if (!contenders_.empty()) {
+    frame_.panels.clear();
+    for (const Contender& contender : contenders_) frame_.panels.push_back(contender.frame());
   }
   frame_.observations.clear();
   for (const auto& [sensor, observation] : latest_) frame_.observations.push_back(observation);

@@ -7,6 +7,7 @@
 
 #include "scenes/schema/scene.hpp"
 #include "sim/world.hpp"
+#include "tools/cli/contenders.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/record/step_record.hpp"
 #include "tools/render/video.hpp"
@@ -20,9 +21,10 @@ render::VideoOptions video_options(const WorldScene& scene, const World& world,
 /// Turns a run into a video: remembers what the tracker knew and draws it at each frame's time.
 class VideoFrames {
  public:
-  /// @param world  of the run; must outlive this
+  /// @param world       of the run; must outlive this
+  /// @param contenders  shown side by side instead of the scene's own tracker; empty: none
   VideoFrames(const WorldScene& scene, const World& world, const render::VideoOptions& options,
-              bool quiet);
+              std::vector<Contender> contenders, bool quiet);
 
   /// Scene times of all frames [s].
   const std::vector<double>& times() const { return times_; }
@@ -34,9 +36,11 @@ class VideoFrames {
 
  private:
   VideoFrames(const World& world, const render::VideoOptions& options,
-              const render::SceneDrawing& drawing, double duration, bool quiet);
+              std::vector<Contender> contenders, const render::SceneDrawing& drawing,
+              double duration, bool quiet);
 
   const World& world_;
+  std::vector<Contender> contenders_;
   render::VideoWriter writer_;
   std::vector<double> times_;
   std::map<int, Observation> latest_;  // by sensor

@@ -173,11 +173,13 @@ void Picture::draw_header(Canvas& canvas, const PanelFrame& panel, std::size_t i
   canvas.text(fonts_.bold, name, letters, {x, baseline}, dark::kText);
   x += fonts_.bold.width(name, letters) + style_.length(12);
   double right = area.right() - style_.length(12);
-  if (panel.rmse) {
-    const std::u32string rmse = U"RMSE " + number("%.2f m", *panel.rmse);
-    canvas.text(fonts_.regular, rmse, letters, {right, baseline}, dark::kText,
+  std::u32string scores;
+  if (panel.rmse) scores += U"RMSE " + number("%.2f m", *panel.rmse);
+  if (panel.gospa) scores += U"  GOSPA " + number("%.2f m", *panel.gospa);
+  if (!scores.empty()) {
+    canvas.text(fonts_.regular, scores, letters, {right, baseline}, dark::kText,
                 Canvas::Align::kRight);
-    right -= fonts_.regular.width(rmse, letters) + style_.length(12);
+    right -= fonts_.regular.width(scores, letters) + style_.length(12);
   }
   const int small = style_.letters(13);
   const int rest = static_cast<int>(right - x);
