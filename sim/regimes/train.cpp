@@ -117,8 +117,6 @@ TrainModel::Effort TrainModel::effort(const State& state, double time) const {
     const double change = (wanted - speed) / kDriverTime;
     return Effort{.acceleration = std::clamp(change, -train_.service_brake, train_.service_brake)};
   };
-  if (state.phase < 0) return {.acceleration = 0.0, .limited = false};
-
   const DriveCommand& command = train_.drive[static_cast<std::size_t>(state.phase)].command;
   if (const auto* hold = std::get_if<Accelerate>(&command)) {
     if (hold->acceleration < 0.0 && speed <= 0.0) return {.braking = train_.service_brake};
@@ -175,7 +173,6 @@ TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, do
   const double inertia = train_.mass * train_.rotating_mass;
   const double direction = speed != 0.0 ? sign(speed) : sign(acceleration);
   const double needed = inertia * acceleration + direction * passive - active;
-  if (!wanted.limited) return {.force = needed};
   if (needed * direction < 0.0) {
     return {.braking = std::min(std::abs(needed) / inertia, train_.emergency_brake)};
   }
@@ -186,6 +183,7 @@ TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, do
 std::vector<double> TrainModel::accelerations(const State& state, double time,
                                               const std::vector<double>& directions) const {
   const std::size_t units = masses_.size();
+  if (state.phase < 0) return std::vector<double>(units, 0.0);
   std::vector<double> active(units, 0.0);
   std::vector<double> passive(units, 0.0);
   for (std::size_t i = 0; i < units; ++i) {
@@ -200,6 +198,7 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
     }
   }
 
+  const std::vector<double> slope = active;
   Effort now = effort(state, time);
   if (now.acceleration) {
     const double active_sum = std::accumulate(active.begin(), active.end(), 0.0);
@@ -216,6 +215,9 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
   std::vector<double> result(units);
   for (std::size_t i = 0; i < units; ++i) {
     const double inertia = masses_[i] * train_.rotating_mass;
+    // Brakes that hold give way to the driver, not to the slope.
+    const bool stands = directions[i] == 0.0;
+    if (train_.holding_brake && stands && active[i] * (active[i] - slope[i]) <= 0.0) continue;
     result[i] = hindered(active[i], passive[i] + now.braking * inertia, directions[i], inertia);
   }
   return result;

@@ -140,6 +140,7 @@ struct Train {
   double service_brake_build_up = 3.0;
   double emergency_brake = 1.0;
   double emergency_brake_build_up = 1.5;
+  bool holding_brake = false;
   std::optional<Couplers> couplers;
   std::vector<Grade> grades;
   std::vector<SchematicCurve> schematic_curves;
@@ -233,6 +234,8 @@ struct Train {
              .maximum = 5.0});
     v.field("emergency_brake_build_up", &Train::emergency_brake_build_up,
             {.unit = "s", .meaning = "until it acts fully", .minimum = 0.0, .maximum = 60.0});
+    v.field("holding_brake", &Train::holding_brake,
+            {.meaning = "once it stands, it does not roll down a slope: only traction moves it"});
     v.field("couplers", &Train::couplers, {.meaning = "springs between the cars; left out: rigid"});
     v.field("grades", &Train::grades, {.meaning = "gradients by place", .max_items = 10000});
     v.field("schematic_curves", &Train::schematic_curves,
@@ -241,6 +244,9 @@ struct Train {
 
   template <class Report>
   void check(Report&& report) const {
+    if (holding_brake && couplers) {
+      report("holding_brake", "needs rigid couplers: leave out `couplers`");
+    }
     if (leading_mass && !(mass > *leading_mass) && cars > 1) {
       report("leading_mass", "must be less than the mass of the whole train");
     }
@@ -287,7 +293,6 @@ class TrainModel {
     double force = 0.0;                                 // traction [N]
     double braking = 0.0;                               // deceleration by the brakes [m/s²]
     std::optional<double> acceleration = std::nullopt;  // to be brought about by either [m/s²]
-    bool limited = true;                                // by traction, adhesion and brakes
   };
 
   const DrivePhase* next_phase(const State& state) const;

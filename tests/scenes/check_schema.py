@@ -18,7 +18,7 @@ BEYOND_A_SCHEMA = {
     "series_repeated_filter_name", "series_truth_of_another_length", "train_drive_without_time",
     "unstable_gains", "video_after_the_end", "video_follows_nobody", "video_from_after_to",
     "empty_name", "long_text", "balls_inside_each_other", "camera_sees_the_horizon",
-    "nearest_target_that_is_not_there", "sector_the_wrong_way_round", "ball_inside_a_box",
+    "nearest_target_that_is_not_there", "sector_the_wrong_way_round", "ball_inside_a_box", "sprung_train_that_holds",
     "below_the_ground", "drone_plan_backwards", "ground_profile_backwards", "juggled_with_a_velocity",
     "released_by_nobody", "released_too_early", "too_many_copies", "no_models",
     "drone_lighter_than_paper", "juggled_too_far",

@@ -79,6 +79,26 @@ TEST(Train, StopsAndRemainsStopped) {
   }
 }
 
+// Property: on a slope a train that has come to a stand rolls back, unless its brakes hold; they
+// give way to the driver.
+TEST(Train, HoldsOnASlopeIfItsBrakesDo) {
+  for (const bool holds : {false, true}) {
+    Train train = single_car(0.0, 8.0, {phase_at(0.0, Coast{}), phase_at(200.0, Accelerate{0.1})});
+    train.grades = {Grade{-1e4, 1e4, 0.02}};
+    train.holding_brake = holds;
+    World world(world_of({target_of(train)}), 1);
+    const double stopped = state_at(world, 100.0).position.x();
+    const TruthState later = state_at(world, 199.0);
+    if (!holds) {
+      EXPECT_LT(later.position.x(), stopped - 100.0);
+      continue;
+    }
+    EXPECT_EQ(later.position.x(), stopped);
+    EXPECT_EQ(later.velocity.x(), 0.0);
+    EXPECT_NEAR(state_at(world, 220.0).velocity.x(), 2.0, 1e-6);
+  }
+}
+
 // T12. Derived: v = a t. Box2D's sleeping keeps a train for ever that starts at less than 0.02
 // m/s².
 TEST(Train, StartsGentlyFromAHalt) {

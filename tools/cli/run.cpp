@@ -92,6 +92,12 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", to_json(report).dump(2) + "\n");
   files.commit();
+  if (world.missed_collisions() > 0 && !manners.quiet) {
+    fmt::print(stderr,
+               "ghtrack: warning: {} collisions were passed over, too fast for steps of 1/{} s; a "
+               "higher physics.rate resolves them\n",
+               world.missed_collisions(), scene.physics.rate);
+  }
   fmt::print("{}", to_table(report));
 }
 
