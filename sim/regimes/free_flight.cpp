@@ -90,7 +90,7 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
                        (after.position - before.position).norm();
   // Samples of the path closer than a quarter radius: no wall is thin enough to slip through.
   const int wall_samples =
-      std::clamp(static_cast<int>(std::ceil(4.0 * reach / body.radius)), 4, 20000);
+      static_cast<int>(std::clamp(std::ceil(4.0 * reach / body.radius), 4.0, 20000.0));
   constexpr int kGroundSamples = 4;  // nobody gets to the other side of the ground
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (static_cast<int>(i) == before.support) continue;
