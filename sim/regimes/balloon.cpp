@@ -1,7 +1,6 @@
 #include "sim/regimes/balloon.hpp"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "sim/portable_math.hpp"
@@ -49,49 +48,41 @@ double BalloonModel::drag_per_speed(const Environment& environment) const {
   return 0.5 * density * balloon_.drag * area / (mass_ + balloon_.added_mass * density * volume_);
 }
 
-FlightRate BalloonModel::rate(const FlightState& state, const Environment& environment, double time,
-                              double earliest, double latest) const {
+FlightRate BalloonModel::rate(const FlightState& state, const Environment& environment,
+                              const SmoothInstant& now) const {
   const double displaced = environment.air().density * volume_;
   const double inertia = mass_ + balloon_.added_mass * displaced;
-  const Vec2 air = environment.wind().at(state.position, time) - state.velocity;
+  const Vec2 air = environment.wind().at(state.position, now.time) - state.velocity;
   FlightRate rate;
   rate.acceleration = drag_per_speed(environment) * air.norm() * air +
                       (mass_ - displaced) / inertia * environment.gravity();
   if (balloon_.fluid_acceleration) {
     rate.acceleration +=
         (1.0 + balloon_.added_mass) * displaced / inertia *
-        environment.wind().material_derivative(state.position, time, earliest, latest);
+        environment.wind().material_derivative(state.position, now.time, now.earliest, now.latest);
   }
   return rate;
 }
 
 void BalloonModel::advance(State& state, const Environment& environment, double from,
                            double to) const {
-  const Wind& wind = environment.wind();
   const double drag = drag_per_speed(environment);
-  wind.over_smooth_parts(from, to, [&](double begin, double end) {
-    fly_stiffly(
-        state, begin, end, round_, environment.surfaces(),
-        [&](const FlightState& s, double time) {
-          return rate(s, environment, Wind::inside(time, begin, end), begin, end);
-        },
-        [&](const FlightState& s, double time) {
-          const Vec2 air = s.velocity - wind.at(s.position, Wind::inside(time, begin, end));
-          return 2.0 * drag * air.norm();
-        });
-  });
+  fly_in_wind(
+      state, from, to, round_, environment,
+      [&](const FlightState& s, const SmoothInstant& now) { return rate(s, environment, now); },
+      [&](const FlightState& s, const SmoothInstant& now) {
+        const Vec2 air = s.velocity - environment.wind().at(s.position, now.time);
+        return 2.0 * drag * air.norm();
+      });
 }
 
 PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment,
                                       double time, int) const {
-  constexpr double kEver = std::numeric_limits<double>::infinity();
-  return flight_kinematics(state, rate(state, environment, time, 0.0, kEver), round_,
+  return flight_kinematics(state, rate(state, environment, {.time = time}), round_,
                            environment.surfaces());
 }
 
-RigidBody BalloonModel::body(const State& state, int) const {
-  return {state.position, state.velocity, state.angle, state.spin};
-}
+RigidBody BalloonModel::body(const State& state, int) const { return body_in_flight(state); }
 
 ContactProperties BalloonModel::contact() const {
   return {{Outline::Shape::kBalloon, 2.0 * balloon_.radius, 2.0 * balloon_.radius},

@@ -70,16 +70,7 @@ struct Balloon {
              .maximum = 2.0});
     v.field("fluid_acceleration", &Balloon::fluid_acceleration,
             {.meaning = "include the pressure field of accelerating air"});
-    v.field("restitution", &Balloon::restitution,
-            {.unit = "1",
-             .meaning = "speed ratio of a bounce where the surface names none",
-             .minimum = 0.0,
-             .maximum = 1.0});
-    v.field("friction", &Balloon::friction,
-            {.unit = "1",
-             .meaning = "coefficient of sliding friction where the surface names none",
-             .minimum = 0.0,
-             .maximum = 10.0});
+    describe_bounce<Balloon>(v);
   }
 
   template <class Report>
@@ -110,9 +101,8 @@ class BalloonModel {
   void adopt(State& state, const RigidBody& body) const;
 
  private:
-  /// @param earliest, latest  between which the wind is smooth [s]
-  FlightRate rate(const FlightState& state, const Environment& environment, double time,
-                  double earliest, double latest) const;
+  FlightRate rate(const FlightState& state, const Environment& environment,
+                  const SmoothInstant& now) const;
   double drag_per_speed(const Environment& environment) const;  // k of −k |u| u [1/m]
 
   Balloon balloon_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/portable_math.hpp"
 
@@ -70,9 +69,13 @@ DroneModel::State DroneModel::start(const Environment&, double) const {
   return state;
 }
 
+std::vector<FlightOrder>::const_iterator DroneModel::first_order_after(double time) const {
+  return std::upper_bound(drone_.plan.begin(), drone_.plan.end(), time,
+                          [](double t, const FlightOrder& order) { return t < order.at; });
+}
+
 Vec2 DroneModel::wanted_velocity(const FlightState& state, double time) const {
-  const auto later = std::find_if(drone_.plan.begin(), drone_.plan.end(),
-                                  [time](const FlightOrder& order) { return order.at > time; });
+  const auto later = first_order_after(time);
   Vec2 place = drone_.position;
   if (later != drone_.plan.begin()) {
     const auto& order = (later - 1)->order;
@@ -112,31 +115,22 @@ FlightRate DroneModel::rate(const FlightState& state, const Environment& environ
               2.0 * drone_.attitude_damping * drone_.attitude_rate * state.spin};
 }
 
-double DroneModel::next_order(double time) const {
-  for (const FlightOrder& order : drone_.plan) {
-    if (order.at > time) return order.at;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 void DroneModel::advance(State& state, const Environment& environment, double from,
                          double to) const {
-  const Wind& wind = environment.wind();
+  const double drag = environment.air().density * drone_.drag_area / drone_.mass;
   while (from < to) {
-    const double order_ends = std::min(to, next_order(from));
-    wind.over_smooth_parts(from, order_ends, [&](double begin, double end) {
-      fly_stiffly(
-          state, begin, end, round_, environment.surfaces(),
-          [&](const FlightState& s, double time) {
-            return rate(s, environment, Wind::inside(time, begin, end));
-          },
-          [&](const FlightState& s, double time) {
-            const Vec2 air = s.velocity - wind.at(s.position, Wind::inside(time, begin, end));
-            const double drag = environment.air().density * drone_.drag_area / drone_.mass;
-            return drag * air.norm() + 1.0 / kVelocityTime +
-                   drone_.attitude_rate * (1.0 + drone_.attitude_damping);
-          });
-    });
+    const auto next = first_order_after(from);
+    const double order_ends = next != drone_.plan.end() ? std::min(to, next->at) : to;
+    fly_in_wind(
+        state, from, order_ends, round_, environment,
+        [&](const FlightState& s, const SmoothInstant& now) {
+          return rate(s, environment, now.time);
+        },
+        [&](const FlightState& s, const SmoothInstant& now) {
+          const Vec2 air = s.velocity - environment.wind().at(s.position, now.time);
+          return drag * air.norm() + 1.0 / kVelocityTime +
+                 drone_.attitude_rate * (1.0 + drone_.attitude_damping);
+        });
     from = order_ends;
   }
 }
@@ -146,9 +140,7 @@ PlanarMotion DroneModel::kinematics(const State& state, const Environment& envir
   return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
 }
 
-RigidBody DroneModel::body(const State& state, int) const {
-  return {state.position, state.velocity, state.angle, state.spin};
-}
+RigidBody DroneModel::body(const State& state, int) const { return body_in_flight(state); }
 
 ContactProperties DroneModel::contact() const {
   return {{Outline::Shape::kDrone, 2.0 * drone_.radius, 2.0 * drone_.radius},

@@ -143,16 +143,7 @@ struct Drone {
              .meaning = "damping ratio of the attitude loop",
              .minimum = 0.2,
              .maximum = 2.0});
-    v.field("restitution", &Drone::restitution,
-            {.unit = "1",
-             .meaning = "speed ratio of a bounce where the surface names none",
-             .minimum = 0.0,
-             .maximum = 1.0});
-    v.field("friction", &Drone::friction,
-            {.unit = "1",
-             .meaning = "coefficient of sliding friction where the surface names none",
-             .minimum = 0.0,
-             .maximum = 10.0});
+    describe_bounce<Drone>(v);
   }
 
   template <class Report>
@@ -186,7 +177,7 @@ class DroneModel {
  private:
   Vec2 wanted_velocity(const FlightState& state, double time) const;
   FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
-  double next_order(double time) const;
+  std::vector<FlightOrder>::const_iterator first_order_after(double time) const;
 
   Drone drone_;
   RoundBody round_;

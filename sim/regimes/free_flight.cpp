@@ -78,6 +78,10 @@ PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
   return {state.position, state.velocity, rate.acceleration};
 }
 
+RigidBody body_in_flight(const FlightState& state) {
+  return {state.position, state.velocity, state.angle, state.spin};
+}
+
 void adopt_flight(FlightState& state, const RigidBody& body) {
   state = {body.position, body.velocity, body.angle, body.spin, -1};
 }

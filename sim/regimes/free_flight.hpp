@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
+#include "sim/environment.hpp"
 #include "sim/regimes/motion.hpp"
 #include "sim/surface.hpp"
 #include "sim/truth.hpp"
@@ -54,8 +56,24 @@ void bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
                                const RoundBody& body, const std::vector<Surface>& surfaces);
 
-/// Takes over what a collision has made of the body.
+/// The body as a collision sees it, and what a collision has made of it.
+RigidBody body_in_flight(const FlightState& state);
 void adopt_flight(FlightState& state, const RigidBody& body);
+
+/// The keys by which a regime of round bodies says how these bounce.
+template <class RoundRegime, class Visitor>
+void describe_bounce(Visitor& v) {
+  v.field("restitution", &RoundRegime::restitution,
+          {.unit = "1",
+           .meaning = "speed ratio of a bounce where the surface names none",
+           .minimum = 0.0,
+           .maximum = 1.0});
+  v.field("friction", &RoundRegime::friction,
+          {.unit = "1",
+           .meaning = "coefficient of sliding friction where the surface names none",
+           .minimum = 0.0,
+           .maximum = 10.0});
+}
 
 /// One Runge–Kutta step of fourth order. Rates: FlightRate(const FlightState&, double time).
 template <class Rates>
@@ -203,6 +221,30 @@ void fly_stiffly(FlightState& state, double from, double to, const RoundBody& bo
       step = std::max(0.25 * step, shortest);
     }
   }
+}
+
+/// An instant, and the time around it during which the wind is smooth.
+struct SmoothInstant {
+  double time = 0.0;                                        // [s]
+  double earliest = 0.0;                                    // [s]
+  double latest = std::numeric_limits<double>::infinity();  // [s]
+};
+
+/// The same through wind that may jump or bend at instants: each part that is smooth is flown by
+/// itself, and forces are asked for inside it only.
+/// Rates: FlightRate(const FlightState&, const SmoothInstant&), Stiffness: double(the same).
+template <class Rates, class Stiffness>
+void fly_in_wind(FlightState& state, double from, double to, const RoundBody& body,
+                 const Environment& environment, const Rates& rates, const Stiffness& stiffness) {
+  environment.wind().over_smooth_parts(from, to, [&](double begin, double end) {
+    const auto at = [&](double time) {
+      return SmoothInstant{Wind::inside(time, begin, end), begin, end};
+    };
+    fly_stiffly(
+        state, begin, end, body, environment.surfaces(),
+        [&](const FlightState& s, double time) { return rates(s, at(time)); },
+        [&](const FlightState& s, double time) { return stiffness(s, at(time)); });
+  });
 }
 
 }  // namespace ghtrack

@@ -137,16 +137,14 @@ double BallModel::stiffness(const FlightState& state, const Environment& environ
 
 void BallModel::fly_freely(FlightState& state, const Environment& environment, double from,
                            double to) const {
-  environment.wind().over_smooth_parts(from, to, [&](double begin, double end) {
-    fly_stiffly(
-        state, begin, end, round_, environment.surfaces(),
-        [&](const FlightState& s, double time) {
-          return rate(s, environment, Wind::inside(time, begin, end));
-        },
-        [&](const FlightState& s, double time) {
-          return stiffness(s, environment, Wind::inside(time, begin, end));
-        });
-  });
+  fly_in_wind(
+      state, from, to, round_, environment,
+      [&](const FlightState& s, const SmoothInstant& now) {
+        return rate(s, environment, now.time);
+      },
+      [&](const FlightState& s, const SmoothInstant& now) {
+        return stiffness(s, environment, now.time);
+      });
 }
 
 void BallModel::advance(State& state, const Environment& environment, double from,
@@ -193,10 +191,7 @@ PlanarMotion BallModel::kinematics(const State& state, const Environment& enviro
                            environment.surfaces());
 }
 
-RigidBody BallModel::body(const State& state, int) const {
-  const FlightState& flight = state.flight;
-  return {flight.position, flight.velocity, flight.angle, flight.spin};
-}
+RigidBody BallModel::body(const State& state, int) const { return body_in_flight(state.flight); }
 
 ContactProperties BallModel::contact() const {
   return {{Outline::Shape::kDisc, 2.0 * ball_.radius, 2.0 * ball_.radius},

@@ -148,16 +148,7 @@ struct ThrownBall {
              .meaning = "moment of inertia / (mass radius^2): 0.4 solid, 0.667 thin shell",
              .above = 0.0,
              .maximum = 1.0});
-    v.field("restitution", &ThrownBall::restitution,
-            {.unit = "1",
-             .meaning = "speed ratio of a bounce where the surface names none",
-             .minimum = 0.0,
-             .maximum = 1.0});
-    v.field("friction", &ThrownBall::friction,
-            {.unit = "1",
-             .meaning = "coefficient of sliding friction where the surface names none",
-             .minimum = 0.0,
-             .maximum = 10.0});
+    describe_bounce<ThrownBall>(v);
     v.field("juggle", &ThrownBall::juggle,
             {.meaning = "the hands of a juggler, instead of a velocity; left out: thrown once"});
   }
