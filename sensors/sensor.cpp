@@ -130,6 +130,12 @@ SensorTraits traits_of(const SensorConfig& sensor) {
   return {.period = 1.0 / sensor.rate, .sigma = sigma, .field_of_view = sensor.view()};
 }
 
+std::vector<SensorTraits> traits_of(const std::vector<SensorConfig>& sensors) {
+  std::vector<SensorTraits> traits;
+  for (const SensorConfig& sensor : sensors) traits.push_back(traits_of(sensor));
+  return traits;
+}
+
 double scan_time(const SensorConfig& sensor, std::int64_t scan) {
   return sensor.phase + static_cast<double>(scan) / sensor.rate;
 }

@@ -165,6 +165,7 @@ struct SensorConfig {
 
 /// What the sensor's data sheet tells a tracker.
 SensorTraits traits_of(const SensorConfig& sensor);
+std::vector<SensorTraits> traits_of(const std::vector<SensorConfig>& sensors);
 
 /// Instant of scan 0, 1, …: phase + scan / rate, never accumulated [s].
 double scan_time(const SensorConfig& sensor, std::int64_t scan);

@@ -2,35 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "sensors/sensor.hpp"
 #include "tools/cli/usage_error.hpp"
+#include "tools/metrics/run_metrics.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
 constexpr std::size_t kFewest = 2;
 constexpr std::size_t kMost = 6;
-constexpr double kCutoffInSigmas = 5.0;  // of GOSPA, as in the metrics of a run
 
 TrackerConfig with_filter(TrackerConfig tracker, const FilterConfig& filter) {
   tracker.filters = {{std::string(TrackerConfig::kDefaultFilter), filter}};
   return tracker;
-}
-
-std::vector<SensorTraits> traits_of(const std::vector<SensorConfig>& sensors) {
-  std::vector<SensorTraits> traits;
-  for (const SensorConfig& sensor : sensors) traits.push_back(ghtrack::traits_of(sensor));
-  return traits;
-}
-
-double coarsest_sigma(const std::vector<SensorConfig>& sensors) {
-  double sigma = 0.0;
-  for (const SensorTraits& traits : traits_of(sensors)) sigma = std::max(sigma, traits.sigma);
-  return sigma;
 }
 
 }  // namespace
@@ -38,7 +25,7 @@ double coarsest_sigma(const std::vector<SensorConfig>& sensors) {
 Contender::Contender(const WorldScene& scene, const std::string& name, const FilterConfig& filter)
     : drawing_{.name = name, .gains = {}},
       design_(with_filter(scene.tracker, filter), traits_of(scene.sensors)),
-      options_{.cutoff = kCutoffInSigmas * coarsest_sigma(scene.sensors)} {
+      options_(scoring_for(traits_of(scene.sensors)).gospa()) {
   const Filter& designed = design_.filter_for(TrackerConfig::kDefaultFilter, 0);
   drawing_.gains = fmt::format("{} {}", ghtrack::name(designed), gains_text(designed));
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -38,15 +37,7 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
                const Manners& manners) {
   World world = make_world(scene);
   RunWriter files(folder, world.objects(), sensor_names(scene));
-  RunMetricsOptions scoring;
-  scoring.sigma = 0.0;
-  scoring.period = std::numeric_limits<double>::infinity();
-  for (const SensorConfig& sensor : scene.sensors) {
-    const SensorTraits traits = traits_of(sensor);
-    scoring.sigma = std::max(scoring.sigma, traits.sigma);
-    scoring.period = std::min(scoring.period, traits.period);
-  }
-  RunMetrics metrics(world.objects(), scoring);
+  RunMetrics metrics(world.objects(), scoring_for(traits_of(scene.sensors)));
   std::optional<VideoFrames> frames;
   if (video.value_or(scene.video.has_value())) {
     frames.emplace(scene, world, video_options(scene, world, folder / "video.mp4"),

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -34,6 +35,17 @@ std::optional<ObjectId> used_object(const TrackEstimate& track, const Observatio
 }
 
 }  // namespace
+
+RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors) {
+  RunMetricsOptions scoring;
+  scoring.sigma = 0.0;
+  scoring.period = std::numeric_limits<double>::infinity();
+  for (const SensorTraits& sensor : sensors) {
+    scoring.sigma = std::max(scoring.sigma, sensor.sigma);
+    scoring.period = std::min(scoring.period, sensor.period);
+  }
+  return scoring;
+}
 
 RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options)
     : objects_(std::move(objects)),

@@ -30,6 +30,10 @@ struct RunMetricsOptions {
   double matching() const { return match_distance.value_or(gospa().cutoff); }
 };
 
+/// How a run with these sensors is scored: by the noise of the coarsest and the period of the
+/// quickest of them.
+RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors);
+
 /// How well one object was followed. Errors are estimate minus truth, of the confirmed or coasting
 /// track that follows the object: the one that last used a detection made by it. Values that need
 /// data which did not occur are absent.

@@ -48,12 +48,6 @@ class ScanSchedule {
   std::vector<std::int64_t> next_scan_;  // of each sensor
 };
 
-std::vector<SensorTraits> traits_of(const std::vector<SensorConfig>& sensors) {
-  std::vector<SensorTraits> traits;
-  for (const SensorConfig& sensor : sensors) traits.push_back(traits_of(sensor));
-  return traits;
-}
-
 /// One run of a scene.
 class Run {
  public:
