@@ -1,0 +1,157 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/metrics/quantiles.hpp"
+#include "tracker/filters/gains/gains.hpp"
+
+// The outcome of a campaign: what `ghtrack compare` writes, prints and draws.
+
+namespace ghtrack {
+
+/// What is measured in each run. Errors are estimate minus truth of the confirmed or coasting track
+/// that follows an object.
+enum class Metric {
+  kRmsePosition,  // √ mean |e|² [m]
+  kRmseVelocity,  // [m/s]
+  kPeakError,     // max |e| [m]
+  kSettlingTime,  // from the object's first scan until its error first stays small [s]
+  kLag,           // mean of (truth − estimate) along the velocity [m]
+  kMai,           // mean absolute innovation [m]
+  kNis,           // mean normalised innovation squared; 2 if the filter is consistent
+  kTracked,       // share of its scans in which an object was followed
+  kTrackLosses,   // times that the track of an object ended or was replaced
+  kGospa,         // mean over the scans [m]; of the scene as a whole
+  kIdSwitches,    // of the scene as a whole
+};
+inline constexpr std::size_t kMetrics = 11;
+
+/// Which way a metric is better.
+enum class Better { kLess, kMore, kNeither };
+
+struct MetricInfo {
+  std::string_view name;     // "rmse_position"
+  std::string_view title;    // "RMSE of position"
+  std::string_view unit;     // "m"; "1" for pure numbers
+  std::string_view meaning;  // one clause
+  Better better = Better::kLess;
+  bool mean_square = false;  // averaged over runs as a mean square, of which the root is told
+  bool skewed = false;       // far from normal over the runs: its interval is a bootstrap
+};
+const MetricInfo& info(Metric metric);
+
+/// Whether a filter is better than all others, judged by 95 % intervals of its differences to the
+/// best one on the same runs, which hold for all filters together (Bonferroni).
+enum class Verdict {
+  kNone,   // not comparable: one filter, a metric without better and worse, or too few runs
+  kBest,   // better than every other filter
+  kTied,   // the best, or not distinguishable from it
+  kWorse,  // than the best
+};
+std::string_view to_string(Verdict verdict);
+
+/// One filter's value of one metric for one subject: an object, all objects of a regime, or the
+/// scene as a whole.
+struct ComparisonRow {
+  std::size_t cell = 0;    // in Comparison::cells
+  std::size_t filter = 0;  // in Comparison::filters
+  std::string regime;      // empty: the scene as a whole
+  std::string object;      // empty: all objects of the regime
+  Metric metric = Metric::kRmsePosition;
+  std::string gains;                 // "g=0.5 h=0.2"
+  double mean = 0.0;                 // over the runs
+  std::optional<Interval> ci95;      // of the mean; absent with fewer than two runs
+  std::optional<double> predicted;   // by the filter's closed forms
+  std::optional<double> bound;       // about the least that a filter of fixed design can have
+  std::int64_t runs = 0;             // in which the metric has a value
+  std::optional<double> difference;  // to the best filter's mean; 0 for itself
+  std::optional<Interval> difference_ci95;  // paired by runs; absent for the best itself
+  Verdict verdict = Verdict::kNone;
+};
+
+/// RMSE of position over all objects of a regime, as it develops over the scene's time.
+struct ErrorCurve {
+  std::size_t filter = 0;
+  std::string regime;
+  struct Point {
+    double time = 0.0;  // middle of the time bin [s]
+    double rmse = 0.0;  // √ mean over runs [m]
+    Interval band;      // 5 % to 95 % of the runs [m]
+  };
+  std::vector<Point> points;  // bins without data are left out
+};
+
+/// The first run of a cell, thinned out for a picture. World frame [m].
+struct ExampleRun {
+  struct Point {
+    double time = 0.0;  // [s]
+    double x = 0.0, y = 0.0;
+  };
+  struct Path {
+    std::string object;  // name
+    std::string regime;
+    std::vector<Point> points;
+  };
+  struct Estimate {
+    std::size_t filter = 0;
+    std::vector<std::vector<Point>> tracks;  // confirmed and coasting, one polyline per track
+  };
+  std::vector<Path> truth;
+  std::vector<Point> detections;  // of objects
+  std::vector<Point> clutter;
+  std::vector<Estimate> estimates;
+};
+
+/// The expected RMSE of position of a g-h filter that is told which detection is whose, over all
+/// objects of a regime, for a grid of gains.
+struct GainSurface {
+  std::string regime;
+  std::vector<double> g, h;  // ascending
+  std::vector<double> rmse;  // [m]; of g[i], h[j] at i * h.size() + j; NaN where unstable
+  Gains best;                // the grid point of the least error
+  struct Mark {              // a compared g-h filter
+    std::size_t filter = 0;
+    Gains gains;
+  };
+  std::vector<Mark> marks;
+};
+
+/// One scene with one set of sweep values.
+struct ComparedCell {
+  std::string scene;                 // name
+  std::string file;                  // as given on the command line
+  std::string sweep;                 // "sensors[0].noise=0.3"; empty: the scene as it is
+  double duration = 0.0;             // [s]
+  double sigma = 0.0;                // of a detection per axis [m]
+  double period = 0.0;               // between scans [s]
+  std::vector<std::string> regimes;  // in the order of the scene
+  std::vector<ErrorCurve> curves;
+  ExampleRun example;
+  std::vector<GainSurface> surfaces;
+};
+
+struct Comparison {
+  std::int64_t runs = 0;
+  std::uint64_t seed = 0;  // as given; 0 and `own_seeds`: each scene's own
+  bool own_seeds = true;
+  std::vector<std::string> filters;  // names, in the order of the columns of a table
+  std::vector<ComparedCell> cells;
+  std::vector<ComparisonRow> rows;  // by cell, subject, metric, filter
+};
+
+/// `comparison.csv`: one line per row.
+std::string comparison_csv(const Comparison& comparison);
+
+/// `comparison.json`: the same rows, and the curves.
+nlohmann::ordered_json to_json(const Comparison& comparison);
+
+/// The table of regimes and filters, for a terminal: RMSE of position with its interval.
+std::string to_table(const Comparison& comparison);
+
+}  // namespace ghtrack
