@@ -85,4 +85,25 @@ struct RandomCopies {
   }
 };
 
+/// `launch: {position: 0.5, velocity: 1}`: nobody throws a ball twice in the same way.
+struct LaunchScatter {
+  static constexpr std::string_view about = "how the starts of targets vary from run to run";
+  double position = 0.0;
+  double velocity = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("position", &LaunchScatter::position,
+            {.unit = "m",
+             .meaning = "1-sigma change of the place per axis",
+             .minimum = 0.0,
+             .maximum = 1e3});
+    v.field("velocity", &LaunchScatter::velocity,
+            {.unit = "m/s",
+             .meaning = "1-sigma change of the velocity per axis, of a train along its track",
+             .minimum = 0.0,
+             .maximum = 100.0});
+  }
+};
+
 }  // namespace ghtrack

@@ -18,6 +18,7 @@ enum class Purpose : std::uint32_t {
   kOrder = 7,
   kGeneration = 8,
   kOutlier = 9,
+  kResampling = 10,
 };
 
 /// A name as a 64-bit key for random streams: FNV-1a.

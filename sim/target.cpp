@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -265,6 +266,34 @@ void name_targets(std::vector<Target>& targets) {
 }
 
 std::vector<Target> spell_out(const std::vector<Target>& targets) { return spell(targets).targets; }
+
+std::vector<Target> scatter_launches(const std::vector<Target>& targets,
+                                     const LaunchScatter& scatter, std::uint64_t seed,
+                                     const EnvironmentConfig& environment) {
+  constexpr std::uint64_t kMostDraws = 100;
+  const std::vector<Target> intended = spell_out(targets);
+  std::vector<Target> scattered = intended;
+  std::vector<std::size_t> waiting(intended.size());  // targets without a good start yet
+  std::iota(waiting.begin(), waiting.end(), std::size_t{0});
+  for (std::uint64_t draw = 0; draw < kMostDraws && !waiting.empty(); ++draw) {
+    for (const std::size_t i : waiting) {
+      Stream stream(seed, Purpose::kLaunch, key_of(intended[i].name), draw);
+      const double x = stream.normal();
+      const double y = stream.normal();
+      const double change_x = stream.normal();
+      const double change_y = stream.normal();
+      scattered[i] = intended[i];
+      move(scattered[i], scatter.position * Vec2(x, y));
+      std::visit([&](auto& motion) { motion.hasten(scatter.velocity * Vec2(change_x, change_y)); },
+                 scattered[i].motion);
+    }
+    waiting.clear();
+    for (const TargetProblem& problem : find_problems(scattered, environment)) {
+      waiting.push_back(problem.target);
+    }
+  }
+  return scattered;
+}
 
 std::vector<TargetProblem> find_problems(const std::vector<Target>& targets,
                                          const EnvironmentConfig& environment) {

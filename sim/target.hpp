@@ -69,6 +69,12 @@ void name_targets(std::vector<Target>& targets);
 /// All targets one by one: copies spelled out, everyone named. Beyond kMostTargets none are added.
 std::vector<Target> spell_out(const std::vector<Target>& targets);
 
+/// The same targets, spelled out, each with a start that is a little different: random by `seed` and
+/// the target's name. A start that find_problems() rejects is drawn again, 100 times at most.
+std::vector<Target> scatter_launches(const std::vector<Target>& targets,
+                                     const LaunchScatter& scatter, std::uint64_t seed,
+                                     const EnvironmentConfig& environment);
+
 /// What is wrong with a list of targets as a whole.
 struct TargetProblem {
   std::size_t target;   // index in the list

@@ -40,4 +40,9 @@ struct ReplayState {
 ReplayState step(const TrackerDesign& design, ReplayState state, const Scan& scan,
                  std::span<const int> identities = {});
 
+/// Whether this scan is the latest that the tracker has processed: false for one that was late.
+inline bool has_processed_last(const ReplayState& state, const Scan& scan) {
+  return state.now.time == scan.time && state.now.sensor == scan.sensor;
+}
+
 }  // namespace ghtrack

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "sim/copies.hpp"
 #include "tracker/filters/filter.hpp"
 
 namespace ghtrack {
@@ -14,8 +17,11 @@ struct CompareConfig {
       "filters that `ghtrack compare` and `ghtrack video --compare` set side by side, each on the "
       "same detections";
 
-  int runs = 100;                               // Monte Carlo runs, each with a seed of its own
-  std::map<std::string, FilterConfig> filters;  // by a name of your choice
+  int runs = 100;
+  bool fresh_wind = false;
+  std::optional<LaunchScatter> launch;
+  std::map<std::string, std::vector<double>> sweep;  // by a key of the scene
+  std::map<std::string, FilterConfig> filters;       // by a name of your choice
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -24,6 +30,16 @@ struct CompareConfig {
              .meaning = "Monte Carlo runs, each with other noise",
              .minimum = 1,
              .maximum = 1'000'000});
+    v.field("fresh_wind", &CompareConfig::fresh_wind,
+            {.meaning = "each run has turbulence of its own; otherwise all runs see the same one "
+                        "and the truth is computed once"});
+    v.field("launch", &CompareConfig::launch,
+            {.meaning = "how the targets' starts differ from run to run; without it not at all"});
+    v.field("sweep", &CompareConfig::sweep,
+            {.meaning = "keys of the scene, such as sensors[0].noise, with the values that they "
+                        "take one after the other; of several keys every combination",
+             .min_items = 1,
+             .max_items = 100});
     v.field("filters", &CompareConfig::filters,
             {.meaning = "filters by a name of your choice, used for every target"});
   }

@@ -43,6 +43,7 @@ const std::map<std::string, Folders> kOwners = {
     {"yaml-cpp/", {"scenes/schema"}},
     {"CLI/", {"tools/cli"}},
     {"Random123/", {"sim/random.cpp"}},
+    {"oneapi/tbb/", {"tools/experiment/engine.cpp", "tools/render"}},
 };
 
 bool starts_with_any(const std::string& path, const Folders& prefixes) {

@@ -41,6 +41,18 @@ struct VideoCommandOptions {
   bool compare = false;
 };
 
+struct CompareOptions {
+  SceneOptions scene;
+  std::string output;               // folder; empty: out/comparison
+  std::optional<int> runs, run;     // how many; or this one alone
+  std::optional<int> jobs;          // threads; as many as the machine has
+  std::string filters;              // YAML file that replaces the scenes' filters; empty: none
+  std::vector<std::string> sweeps;  // KEY=VALUE,VALUE,…
+  std::string shard;                // I/N; empty: everything
+  std::string merge;                // folder of parts to be joined; empty: none
+  bool resume = false;
+};
+
 struct FilterCommandOptions {
   std::string file = "-";  // series, or - for standard input
   std::string filter = "gh";
@@ -84,6 +96,7 @@ struct ScoreOptions {
 // Each command returns the exit code, or throws what main() turns into one.
 int run(const RunOptions& options, const Manners& manners);
 int video(const VideoCommandOptions& options, const Manners& manners);
+int compare(const CompareOptions& options, const Manners& manners);
 int check(const SceneOptions& options, const Manners& manners);
 int schema();
 int reference();

@@ -74,6 +74,39 @@ void add_video(CLI::App& app, VideoCommandOptions& options) {
       "  ghtrack video scenes/trains.yaml --from 4 --to 4 -o picture.png");
 }
 
+void add_compare(CLI::App& app, CompareOptions& options) {
+  CLI::App& command =
+      *app.add_subcommand("compare", "Compare filters over many runs, on the same detections");
+  add_scene_options(command, options.scene, true);
+  command.get_option("SCENE")->required(false);
+  command.add_option("-o,--output", options.output, "folder (default: out/comparison)");
+  command.add_option("--runs", options.runs, "runs of each scene (default: what the scene says)")
+      ->check(CLI::Range(1, 1'000'000));
+  command.add_option("--jobs", options.jobs, "threads (default: one per processor)")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--filters", options.filters,
+                     "YAML file with `filters: {name: filter, …}`, instead of the scenes' own");
+  command
+      .add_option("--sweep", options.sweeps,
+                  "KEY=VALUE,VALUE,…: compare at each of these values of a key")
+      ->expected(1)
+      ->allow_extra_args(false);
+  command.add_option("--shard", options.shard,
+                     "I/N: only every N-th run, from number I on (0 to N-1), into a part file");
+  command.add_option("--merge", options.merge, "join the part files in this folder");
+  command.add_flag("--resume", options.resume, "compute only what the part files lack");
+  command.add_option("--run", options.run, "replay this run alone (from 0) and print its rows")
+      ->check(CLI::Range(0, 999'999));
+  command.footer(
+      "Examples:\n"
+      "  ghtrack compare scenes/three_regimes.yaml --runs 20\n"
+      "  ghtrack compare scenes/throwing.yaml --runs 10 --sweep sensors[0].noise=0.3,1\n"
+      "  ghtrack compare scenes/three_regimes.yaml --run 3\n"
+      "  ghtrack compare scenes/throwing.yaml --runs 8 --shard 0/2 -o out/parts\n"
+      "  ghtrack compare scenes/throwing.yaml --runs 8 --shard 1/2 -o out/parts\n"
+      "  ghtrack compare --merge out/parts");
+}
+
 void add_check(CLI::App& app, SceneOptions& options) {
   CLI::App& command = *app.add_subcommand("check", "Validate scene files without running them");
   add_scene_options(command, options, true);
@@ -243,6 +276,7 @@ int dispatch(int argc, char** argv) {
 
   RunOptions run_options;
   VideoCommandOptions video_options;
+  CompareOptions compare_options;
   SceneOptions check_options;
   FilterCommandOptions filter_options;
   GainsCommandOptions gains_options;
@@ -250,6 +284,7 @@ int dispatch(int argc, char** argv) {
   ScoreOptions score_options;
   add_run(app, run_options);
   add_video(app, video_options);
+  add_compare(app, compare_options);
   add_check(app, check_options);
   app.add_subcommand("schema", "Print the JSON Schema of scene files")
       ->footer("Examples:\n  ghtrack schema > scenes/scene.schema.json");
@@ -269,6 +304,7 @@ int dispatch(int argc, char** argv) {
   const std::vector<std::pair<const char*, std::function<int()>>> commands = {
       {"run", [&] { return run(run_options, manners); }},
       {"video", [&] { return video(video_options, manners); }},
+      {"compare", [&] { return compare(compare_options, manners); }},
       {"check", [&] { return check(check_options, manners); }},
       {"schema", [] { return schema(); }},
       {"reference", [] { return reference(); }},

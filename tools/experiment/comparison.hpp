@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -8,43 +7,15 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/experiment/campaign.hpp"
+#include "tools/experiment/journal.hpp"
+#include "tools/experiment/metric.hpp"
 #include "tools/metrics/quantiles.hpp"
 #include "tracker/filters/gains/gains.hpp"
 
 // The outcome of a campaign: what `ghtrack compare` writes, prints and draws.
 
 namespace ghtrack {
-
-/// What is measured in each run. Errors are estimate minus truth of the confirmed or coasting track
-/// that follows an object.
-enum class Metric {
-  kRmsePosition,  // √ mean |e|² [m]
-  kRmseVelocity,  // [m/s]
-  kPeakError,     // max |e| [m]
-  kSettlingTime,  // from the object's first scan until its error first stays small [s]
-  kLag,           // mean of (truth − estimate) along the velocity [m]
-  kMai,           // mean absolute innovation [m]
-  kNis,           // mean normalised innovation squared; 2 if the filter is consistent
-  kTracked,       // share of its scans in which an object was followed
-  kTrackLosses,   // times that the track of an object ended or was replaced
-  kGospa,         // mean over the scans [m]; of the scene as a whole
-  kIdSwitches,    // of the scene as a whole
-};
-inline constexpr std::size_t kMetrics = 11;
-
-/// Which way a metric is better.
-enum class Better { kLess, kMore, kNeither };
-
-struct MetricInfo {
-  std::string_view name;     // "rmse_position"
-  std::string_view title;    // "RMSE of position"
-  std::string_view unit;     // "m"; "1" for pure numbers
-  std::string_view meaning;  // one clause
-  Better better = Better::kLess;
-  bool mean_square = false;  // averaged over runs as a mean square, of which the root is told
-  bool skewed = false;       // far from normal over the runs: its interval is a bootstrap
-};
-const MetricInfo& info(Metric metric);
 
 /// Whether a filter is better than all others, judged by 95 % intervals of its differences to the
 /// best one on the same runs, which hold for all filters together (Bonferroni).
@@ -124,9 +95,11 @@ struct GainSurface {
 
 /// One scene with one set of sweep values.
 struct ComparedCell {
-  std::string scene;                 // name
-  std::string file;                  // as given on the command line
-  std::string sweep;                 // "sensors[0].noise=0.3"; empty: the scene as it is
+  std::string scene;  // name
+  std::string file;   // as given on the command line
+  std::string sweep;  // "sensors[0].noise=0.3"; empty: the scene as it is
+  std::int64_t runs = 0;
+  std::uint64_t seed = 0;            // of run 0; run k has seed + k
   double duration = 0.0;             // [s]
   double sigma = 0.0;                // of a detection per axis [m]
   double period = 0.0;               // between scans [s]
@@ -137,13 +110,15 @@ struct ComparedCell {
 };
 
 struct Comparison {
-  std::int64_t runs = 0;
-  std::uint64_t seed = 0;  // as given; 0 and `own_seeds`: each scene's own
-  bool own_seeds = true;
   std::vector<std::string> filters;  // names, in the order of the columns of a table
   std::vector<ComparedCell> cells;
   std::vector<ComparisonRow> rows;  // by cell, subject, metric, filter
 };
+
+/// Averages the results of a campaign and sets theory beside them.
+/// @param results  of all runs
+/// @param jobs     threads; the outcome does not depend on them
+Comparison compare(const Campaign& campaign, const Results& results, int jobs);
 
 /// `comparison.csv`: one line per row.
 std::string comparison_csv(const Comparison& comparison);

@@ -51,11 +51,13 @@ RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions&
     : objects_(std::move(objects)),
       options_(options),
       tallies_(objects_.size()),
-      floor_(objects_.size(), options.sigma, options.period),
-      mot_({options.gospa().cutoff, options.gospa().order}) {}
+      latest_errors_(objects_.size()),
+      mot_({options.gospa().cutoff, options.gospa().order}) {
+  if (options.with_floor) floor_.emplace(objects_.size(), options.sigma, options.period);
+}
 
 void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& observation) {
-  floor_.add_observation(truth, observation);
+  if (floor_) floor_->add_observation(truth, observation);
   std::vector<const TruthState*> state_of(tallies_.size(), nullptr);
   for (const TruthState& state : truth.objects) {
     state_of.at(static_cast<std::size_t>(state.id)) = &state;
@@ -72,14 +74,16 @@ void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& 
 }
 
 void RunMetrics::add_tracks(const StepRecord& record) {
-  floor_.go_to(record.tracks.time, record.tracks.sensor);
+  if (floor_) floor_->go_to(record.tracks.time, record.tracks.sensor);
   score_sets(record);
   update_following(record);
 
   const std::vector<std::optional<std::size_t>> chosen = choose_tracks(record);
+  latest_errors_.assign(objects_.size(), std::nullopt);
   for (const TruthState& truth : record.truth.objects) {
     const auto object = static_cast<std::size_t>(truth.id);
     ObjectTally& tally = tallies_.at(object);
+    if (tally.scans == 0) tally.first_time = record.truth.time;
     ++tally.scans;
     if (chosen[object]) {
       const TrackEstimate& track = record.tracks.tracks[*chosen[object]];
@@ -87,7 +91,11 @@ void RunMetrics::add_tracks(const StepRecord& record) {
       if (used_object(track, record.observation) == truth.id) {
         ++tally.detections_used;
       }
+    } else {
+      if (tally.followed) ++tally.track_losses;
+      if (tally.calm_scans < kCalmScans) tally.calm_scans = 0;
     }
+    tally.followed = chosen[object].has_value();
     tally.before = truth;
     tally.before_time = record.truth.time;
   }
@@ -154,10 +162,16 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
 
 void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& track, double time) {
   ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
-  if (tally.track && tally.track != track.id) ++tally.track_changes;
+  if (tally.track && tally.track != track.id) {
+    ++tally.track_changes;
+    if (tally.followed) ++tally.track_losses;
+  }
   tally.track = track.id;
 
   const Vec2 error = track.position - truth.position;
+  latest_errors_[static_cast<std::size_t>(truth.id)] = error;
+  tally.peak_error = std::max(tally.peak_error, error.norm());
+  watch_settling(tally, error.norm(), time);
   tally.squared_error.add(error.squaredNorm());
   tally.error += error;
   tally.squared_velocity_error += (track.velocity - truth.velocity).squaredNorm();
@@ -168,7 +182,11 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   }
   const Vec2 lag = track.lag_per_acceleration * truth.acceleration + track.lag_per_jerk * jerk;
   tally.predicted_square += track.noise_sigma.squaredNorm() + lag.squaredNorm();
-  if (const auto squares = floor_.squared_errors(truth.id)) {
+  if (const double speed = truth.velocity.norm(); speed > 0.0) {
+    tally.lag -= error.dot(truth.velocity) / speed;
+    tally.predicted_lag += lag.dot(truth.velocity) / speed;
+  }
+  if (const auto squares = floor_ ? floor_->squared_errors(truth.id) : std::nullopt) {
     for (std::size_t i = 0; i < squares->size(); ++i) tally.floor_square[i] += (*squares)[i];
     ++tally.floor_count;
   }
@@ -195,6 +213,16 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   }
 }
 
+void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) const {
+  if (tally.calm_scans >= kCalmScans) return;
+  if (!(error < 2.0 * options_.sigma)) {
+    tally.calm_scans = 0;
+    return;
+  }
+  if (tally.calm_scans == 0) tally.calm_since = time;
+  ++tally.calm_scans;
+}
+
 ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& tally) const {
   ObjectReport report;
   report.id = object.id;
@@ -205,6 +233,7 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
   report.detections_used = tally.detections_used;
   report.detections_missed = tally.scans - tally.detections_used;
   report.track_changes = tally.track_changes;
+  report.track_losses = tally.track_losses;
   report.tracked = tally.squared_error.count();
   report.measurement_rmse = root_mean(tally.squared_measurement_error, tally.detections);
   report.mai = mean(tally.innovation, tally.innovations);
@@ -227,6 +256,10 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
       *std::min_element(tally.floor_square.begin(), tally.floor_square.end()), tally.floor_count);
   report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);
   report.bias = tally.error / static_cast<double>(report.tracked);
+  report.peak_error = tally.peak_error;
+  report.lag = tally.lag / static_cast<double>(report.tracked);
+  report.predicted_lag = tally.predicted_lag / static_cast<double>(report.tracked);
+  if (tally.calm_scans >= kCalmScans) report.settling_time = tally.calm_since - tally.first_time;
   if (tally.nees.count() > 0) {
     report.nees = tally.nees.mean();
     report.nees_bounds95 = chi_square_mean_bounds95(tally.nees.effective_count(), 2.0);

@@ -25,6 +25,7 @@ struct RunMetricsOptions {
   double order = 2.0;                                   // GOSPA's p
   double alpha = 2.0;                                   // GOSPA's alpha
   std::optional<double> match_distance = std::nullopt;  // for MOTA, IDF1, HOTA [m]; c if not given
+  bool with_floor = true;  // also run the filters of ErrorFloor, which cost more than all the rest
 
   GospaOptions gospa() const { return {cutoff.value_or(5.0 * sigma), order, alpha}; }
   double matching() const { return match_distance.value_or(gospa().cutoff); }
@@ -49,6 +50,7 @@ struct ObjectReport {
   std::int64_t detections_used = 0;            // scans in which its track used one of them
   std::int64_t detections_missed = 0;          // the other scans
   std::int64_t track_changes = 0;              // times that another track took over
+  std::int64_t track_losses = 0;               // times that its track ended or was replaced
   std::optional<double> rmse_position;         // √ mean |e|² [m]
   std::optional<Interval> rmse_position_ci95;  // 95 % confidence
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
@@ -56,6 +58,10 @@ struct ObjectReport {
   std::optional<double> rmse_velocity;         // [m/s]
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
+  std::optional<double> peak_error;            // max |e| [m]
+  std::optional<double> lag;                   // mean of −e along the velocity [m]
+  std::optional<double> predicted_lag;         // the same of the predicted lag [m]
+  std::optional<double> settling_time;         // see RunMetrics::kCalmScans [s]
   std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
   std::optional<double> nees;                  // mean of eᵀ P⁻¹ e; 2 if consistent
   std::optional<Interval> nees_bounds95;
@@ -90,6 +96,10 @@ struct RunReport {
 /// grow with the number of scans, except as MotScore says.
 class RunMetrics {
  public:
+  /// An error has settled at the first of so many scans in a row in which it stays below twice the
+  /// sensor's 1-sigma noise.
+  static constexpr int kCalmScans = 10;
+
   RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options);
 
   /// What a sensor saw of the truth, in the order of time.
@@ -99,6 +109,9 @@ class RunMetrics {
   void add_tracks(const StepRecord& record);
 
   RunReport report() const;
+
+  /// The error of each object in the latest scan [m], by id; absent where no track follows it.
+  const std::vector<std::optional<Vec2>>& latest_errors() const { return latest_errors_; }
 
  private:
   /// A filter with its gains, and in how many scans it led.
@@ -114,9 +127,17 @@ class RunMetrics {
     std::int64_t detections = 0;
     std::int64_t detections_used = 0;
     std::int64_t track_changes = 0;
+    std::int64_t track_losses = 0;
     std::optional<int> track;  // that follows the object, or did last
+    bool followed = false;     // in the latest scan
     BatchMeans squared_error;
     Vec2 error = Vec2::Zero();
+    double peak_error = 0.0;
+    double lag = 0.0;
+    double predicted_lag = 0.0;
+    double first_time = 0.0;  // of its scans
+    double calm_since = 0.0;
+    int calm_scans = 0;
     double squared_velocity_error = 0.0;
     double squared_measurement_error = 0.0;
     double predicted_square = 0.0;  // variance and squared lag
@@ -139,13 +160,15 @@ class RunMetrics {
   void update_following(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
   void score_object(const TruthState& truth, const TrackEstimate& track, double time);
+  void watch_settling(ObjectTally& tally, double error, double time) const;
   ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
 
   std::vector<ObjectInfo> objects_;
   RunMetricsOptions options_;
   std::vector<ObjectTally> tallies_;  // by object
   Following following_;
-  ErrorFloor floor_;
+  std::vector<std::optional<Vec2>> latest_errors_;
+  std::optional<ErrorFloor> floor_;
   SwitchCounter switches_;
   MotScore mot_;
   TotalReport sums_;  // GOSPA and its kin, not yet divided by the number of scans

@@ -33,6 +33,7 @@ Json object_json(const ObjectReport& object) {
   json["detections_used"] = object.detections_used;
   json["detections_missed"] = object.detections_missed;
   json["track_changes"] = object.track_changes;
+  json["track_losses"] = object.track_losses;
   json["rmse_position"] = number(object.rmse_position);
   json["rmse_position_ci95"] = interval(object.rmse_position_ci95);
   json["predicted_rmse"] = number(object.predicted_rmse);
@@ -41,6 +42,10 @@ Json object_json(const ObjectReport& object) {
   json["measurement_rmse"] = number(object.measurement_rmse);
   json["bias"] = object.bias ? Json::array({number(object.bias->x()), number(object.bias->y())})
                              : Json(nullptr);
+  json["peak_error"] = number(object.peak_error);
+  json["lag"] = number(object.lag);
+  json["predicted_lag"] = number(object.predicted_lag);
+  json["settling_time"] = number(object.settling_time);
   json["mai"] = number(object.mai);
   json["nees"] = number(object.nees);
   json["nees_bounds95"] = interval(object.nees_bounds95);

@@ -1,52 +1,19 @@
 #include "tools/pipeline/simulation.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <optional>
+#include <memory>
 #include <utility>
 
 #include "sensors/sensor.hpp"
+#include "tools/pipeline/sensing.hpp"
 #include "tracker/replay.hpp"
 
 namespace ghtrack {
 namespace {
 
 constexpr double kExtentRate = 10.0;  // [Hz]
-
-/// The scans of all sensors of a scene in the order of time, sensors of the same instant in the
-/// order of the scene.
-class ScanSchedule {
- public:
-  explicit ScanSchedule(const WorldScene& scene)
-      : scene_(scene), next_scan_(scene.sensors.size(), 0) {}
-
-  struct Entry {
-    double time;
-    int sensor;
-    std::int64_t scan;
-  };
-
-  /// The next scan, until take() is called.
-  std::optional<Entry> next() const {
-    std::optional<Entry> first;
-    for (std::size_t i = 0; i < next_scan_.size(); ++i) {
-      const double time = scan_time(scene_.sensors[i], next_scan_[i]);
-      if (time <= scene_.duration && (!first || time < first->time)) {
-        first = {time, static_cast<int>(i), next_scan_[i]};
-      }
-    }
-    return first;
-  }
-  void take(const Entry& entry) { ++next_scan_[static_cast<std::size_t>(entry.sensor)]; }
-
- private:
-  const WorldScene& scene_;
-  std::vector<std::int64_t> next_scan_;  // of each sensor
-};
 
 /// One run of a scene.
 class Run {
@@ -55,57 +22,30 @@ class Run {
       : scene_(scene),
         world_(world),
         listener_(listener),
-        setting_{.objects = world.objects(), .classes = regime_kinds(), .seed = scene.seed},
-        design_(scene.tracker, traits_of(scene.sensors)),
-        schedule_(scene) {}
+        design_(scene.tracker, traits_of(scene.sensors)) {}
 
   RunCounts to_the_end() {
-    for (auto scan = schedule_.next(); scan || !under_way_.empty(); scan = schedule_.next()) {
-      if (scan && (under_way_.empty() || scan->time <= under_way_.begin()->first.arrival)) {
-        schedule_.take(*scan);
-        sense(*scan);
-      } else {
-        deliver(under_way_.extract(under_way_.begin()).mapped());
-      }
-    }
+    const Setting setting{
+        .objects = world_.objects(), .classes = regime_kinds(), .seed = scene_.seed};
+    const TruthSource truth = [this](double time) {
+      show_frames_before(time);
+      return std::make_shared<const TruthSnapshot>(world_.sample(time));
+    };
+    const auto on_sensed = [this](const SensedScan& scan) {
+      if (listener_.on_observation) listener_.on_observation(*scan.truth, scan.observation);
+    };
+    sense(scene_, setting, truth, on_sensed, [this](SensedScan scan) { deliver(std::move(scan)); });
     show_frames_before(std::numeric_limits<double>::infinity());
     return counts();
   }
 
  private:
-  struct Sensed {
-    TruthSnapshot truth;
-    Observation observation;
-    double arrival = 0.0;  // [s]
-  };
-
-  /// The order in which scans reach the tracker.
-  struct ArrivalKey {
-    double arrival = 0.0;
-    double time = 0.0;
-    int sensor = 0;
-    auto operator<=>(const ArrivalKey&) const = default;
-  };
-
-  void sense(const ScanSchedule::Entry& scan) {
-    show_frames_before(scan.time);
-    const SensorConfig& sensor = scene_.sensors[static_cast<std::size_t>(scan.sensor)];
-    Sensed sensed;
-    sensed.truth = world_.sample(scan.time);
-    sensed.observation = observe(sensor, scan.sensor, scan.scan, sensed.truth, setting_);
-    sensed.arrival = scan.time + sensor.latency;
-    if (listener_.on_observation) listener_.on_observation(sensed.truth, sensed.observation);
-    under_way_.emplace(ArrivalKey{sensed.arrival, scan.time, scan.sensor}, std::move(sensed));
-  }
-
-  void deliver(Sensed sensed) {
+  void deliver(SensedScan sensed) {
     show_frames_before(sensed.arrival);
     const Scan& scan = sensed.observation.scan;
     tracker_ = step(design_, std::move(tracker_), scan, sensed.observation.origins);
-    const bool is_latest = tracker_.now.time == scan.time && tracker_.now.sensor == scan.sensor;
-    if (is_latest) {
-      listener_.on_scan(
-          {std::move(sensed.truth), std::move(sensed.observation), snapshot(tracker_.now)});
+    if (has_processed_last(tracker_, scan)) {
+      listener_.on_scan({*sensed.truth, std::move(sensed.observation), snapshot(tracker_.now)});
     } else if (listener_.on_late_scan) {
       listener_.on_late_scan(sensed.observation);
     }
@@ -131,10 +71,7 @@ class Run {
   const WorldScene& scene_;
   World& world_;
   const Listener& listener_;
-  Setting setting_;
   TrackerDesign design_;
-  ScanSchedule schedule_;
-  std::map<ArrivalKey, Sensed> under_way_;  // sensed, but not arrived yet
   ReplayState tracker_;
   std::size_t frame_ = 0;  // the next one
 };

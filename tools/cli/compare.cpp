@@ -1,0 +1,169 @@
+// `ghtrack compare`: Monte Carlo comparison of filters, in one process or as one of many.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "scenes/schema/configuration.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/interruption.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/cli/scene_source.hpp"
+#include "tools/cli/usage_error.hpp"
+#include "tools/experiment/comparison.hpp"
+#include "tools/experiment/engine.hpp"
+#include "tools/experiment/journal.hpp"
+#include "tools/experiment/run_table.hpp"
+#include "tools/record/atomic_file.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Campaign campaign_from(const CompareOptions& options) {
+  if (options.scene.files.empty()) {
+    throw UsageError("compare: needs a SCENE, or --merge with a folder of part files");
+  }
+  CampaignOptions changes;
+  changes.overrides = options.scene.all_overrides();
+  changes.sweeps = options.sweeps;
+  changes.runs = options.runs.value_or(0);
+  if (!options.filters.empty()) {
+    changes.filters = schema::read_configuration_file<CompareConfig>(options.filters).filters;
+    if (changes.filters.empty()) {
+      throw InputError(options.filters +
+                       ": error: names no filters; wanted is `filters: {name: "
+                       "{gh: {g: 0.5, h: 0.2}}, …}`");
+    }
+  }
+  return read_campaign(options.scene.files, changes);
+}
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto [slash, index_error] = std::from_chars(text.data(), end, shard.index);
+  if (index_error == std::errc{} && slash != end && *slash == '/') {
+    const auto [last, count_error] = std::from_chars(slash + 1, end, shard.count);
+    const bool in_range = shard.index >= 0 && shard.index < shard.count;
+    if (count_error == std::errc{} && last == end && in_range) return shard;
+  }
+  throw UsageError(
+      fmt::format("compare: --shard is '{}'; wanted is I/N with I from 0 to N - 1, "
+                  "such as 0/8",
+                  printable(text)));
+}
+
+int threads(const CompareOptions& options) {
+  return options.jobs.value_or(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+}
+
+/// Computes what the results lack of a share, and keeps it in the share's journal.
+void compute_share(const Campaign& campaign, const Shard& shard, const fs::path& folder,
+                   const CompareOptions& options, const Manners& manners, Results& results) {
+  Journal journal(folder, shard, campaign, options.resume);
+  Progress progress("comparing", "runs",
+                    static_cast<std::size_t>(runs_to_do(campaign, shard, results)), manners.quiet);
+  try {
+    compute(campaign, shard, results, threads(options), stop_if_interrupted,
+            [&](std::size_t cell, int run, std::vector<double> scores) {
+              journal.add(cell, run, scores);
+              results.put(cell, run, std::move(scores));
+              progress.advance();
+            });
+  } catch (Interrupted& interrupted) {
+    interrupted.remark =
+        fmt::format("{} keeps the runs that are done; the same command with --resume does the rest",
+                    folder.string());
+    throw;
+  }
+  journal.complete();
+}
+
+void write_run_table(const Campaign& campaign, const Results& results, const fs::path& path) {
+  AtomicFile file(path);
+  file.write(run_table_header());
+  for (std::size_t i = 0; i < campaign.cells.size(); ++i) {
+    const CampaignCell& cell = campaign.cells[i];
+    const Trial trial(cell.scene);
+    for (int run = 0; run < cell.runs(); ++run) {
+      file.write(run_table_rows(cell, trial, run, results.at(i, run)));
+    }
+  }
+  file.commit();
+}
+
+/// Averages complete results, writes all files and prints the table.
+void publish(const Campaign& campaign, const Results& results, const fs::path& folder, int jobs,
+             const Manners& manners) {
+  const Comparison comparison = compare(campaign, results, jobs);
+  write_run_table(campaign, results, folder / "runs.csv");
+  write_file(folder / "comparison.json", to_json(comparison).dump(2) + "\n");
+  write_file(folder / "comparison.csv", comparison_csv(comparison));
+  fmt::print("{}", to_table(comparison));
+  if (!manners.quiet) fmt::print(stderr, "results in {}\n", folder.string());
+}
+
+/// Prints the rows of one run, as they stand in runs.csv.
+int replay(const Campaign& campaign, int run) {
+  std::string rows = run_table_header();
+  for (const CampaignCell& cell : campaign.cells) {
+    const Trial trial(cell.scene);
+    rows += run_table_rows(cell, trial, run, trial.scores(run, stop_if_interrupted));
+  }
+  fmt::print("{}", rows);
+  return 0;
+}
+
+int merge(const CompareOptions& options, const Manners& manners) {
+  const fs::path parts = options.merge;
+  const std::vector<fs::path> journals = journals_in(parts, true);
+  if (journals.empty()) {
+    throw UsageError(fmt::format("compare: no part files (shard-I-of-N.runs) in '{}'",
+                                 printable(options.merge)));
+  }
+  const Campaign campaign = campaign_of(journals.front());
+  Results results(campaign);
+  for (const fs::path& journal : journals) read_journal(journal, campaign, results);
+  if (const std::int64_t missing = results.missing(); missing > 0) {
+    throw UsageError(
+        fmt::format("compare: {} of {} runs are missing in '{}': run the other "
+                    "shards, or those in .partial files again with --resume",
+                    missing, campaign.items(), printable(options.merge)));
+  }
+  const fs::path folder = options.output.empty() ? parts : fs::path(options.output);
+  make_folder(folder);
+  publish(campaign, results, folder, threads(options), manners);
+  return 0;
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options, const Manners& manners) {
+  if (!options.merge.empty()) return merge(options, manners);
+  const Campaign campaign = campaign_from(options);
+  if (options.run) return replay(campaign, *options.run);
+
+  const fs::path folder = options.output.empty() ? "out/comparison" : options.output;
+  make_folder(folder);
+  Results results(campaign);
+  if (options.resume) {
+    for (const fs::path& journal : journals_in(folder, true)) {
+      read_journal(journal, campaign, results);
+    }
+  }
+  const Shard shard = options.shard.empty() ? Shard{} : parse_shard(options.shard);
+  compute_share(campaign, shard, folder, options, manners, results);
+  if (options.shard.empty()) publish(campaign, results, folder, threads(options), manners);
+  return 0;
+}
+
+}  // namespace ghtrack::cli

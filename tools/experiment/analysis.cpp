@@ -1,0 +1,306 @@
+#include "tools/experiment/analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "tools/experiment/guided.hpp"
+#include "tracker/filters/gains/analysis.hpp"
+#include "tracker/replay.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr int kTheoryRuns = 8;             // over which theory averages what differs between runs
+constexpr std::size_t kIndices = 13;       // tracking indices 10^-3.5, … 10^0.5
+constexpr std::size_t kGridSide = 20;      // of a gain surface
+constexpr std::size_t kMostWalked = 4000;  // scans of objects that a surface is computed from
+
+bool belongs_to(ObjectId id, const Subject& subject) {
+  return std::binary_search(subject.objects.begin(), subject.objects.end(), id);
+}
+
+/// The filters of which the best one is the bound.
+std::vector<GainFilter<2>> candidates(const RunMetricsOptions& sensor) {
+  std::vector<GainFilter<2>> filters;
+  for (const int order : {1, 2}) {
+    for (std::size_t i = 0; i < kIndices; ++i) {
+      const double index = std::pow(10.0, -3.5 + static_cast<double>(i) / 3.0);
+      filters.push_back(
+          plain_filter(tracking_index_gains(order, index), sensor.sigma, sensor.period));
+    }
+  }
+  return filters;
+}
+
+/// Sums over the truth of some objects.
+struct TheorySum {
+  std::vector<ErrorSum> candidates;
+  double square_acceleration = 0.0;
+  double square_jerk = 0.0;
+  std::int64_t scans = 0;
+  std::int64_t steps = 0;
+
+  void add(const SightedObject& object, const std::vector<GainFilter<2>>& filters) {
+    candidates.resize(filters.size());
+    for (std::size_t i = 0; i < filters.size(); ++i) {
+      candidates[i] += expected_errors(filters[i], object);
+    }
+    const TruthState* before = nullptr;
+    double before_time = 0.0;
+    for (const Sighting& sighting : object.sightings) {
+      square_acceleration += sighting.truth.acceleration.squaredNorm();
+      ++scans;
+      if (before != nullptr && sighting.time > before_time) {
+        const Vec2 change = sighting.truth.acceleration - before->acceleration;
+        square_jerk += (change / (sighting.time - before_time)).squaredNorm();
+        ++steps;
+      }
+      before = &sighting.truth;
+      before_time = sighting.time;
+    }
+  }
+
+  TheorySum& operator+=(const TheorySum& other) {
+    candidates.resize(other.candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i] += other.candidates[i];
+    square_acceleration += other.square_acceleration;
+    square_jerk += other.square_jerk;
+    scans += other.scans;
+    steps += other.steps;
+    return *this;
+  }
+
+  SubjectTheory theory() const {
+    SubjectTheory theory;
+    if (scans > 0) theory.square_acceleration = square_acceleration / static_cast<double>(scans);
+    if (steps > 0) theory.square_jerk = square_jerk / static_cast<double>(steps);
+    for (const ErrorSum& candidate : candidates) {
+      if (candidate.scans == 0) continue;
+      const double position = candidate.rmse_position();
+      const double velocity = candidate.rmse_velocity();
+      theory.bound_position = std::min(position, theory.bound_position.value_or(position));
+      theory.bound_velocity = std::min(velocity, theory.bound_velocity.value_or(velocity));
+    }
+    return theory;
+  }
+};
+
+/// Variance and squared lag per axis pair, from what the closed forms say for a unit derivative.
+struct SteadyError {
+  double variance_factor = 0.0;  // of σ², per axis
+  double lag = 0.0;              // under a unit next derivative
+};
+
+template <class Choose>
+std::optional<double> steady_mean_square(const Gains& gains, const RunMetricsOptions& sensor,
+                                         const SubjectTheory& theory, const Choose& choose) {
+  if (gains.order < 1 || !is_stable(gains)) return std::nullopt;
+  const VarianceReduction variance = variance_reduction(gains, sensor.period);
+  const Lag lag = steady_lag(gains, sensor.period, 1.0);
+  const SteadyError error = choose(variance, lag);
+  const double square = gains.order == 1 ? theory.square_acceleration : theory.square_jerk;
+  return 2.0 * sensor.sigma * sensor.sigma * error.variance_factor + error.lag * error.lag * square;
+}
+
+/// Every n-th element, so that at most `most` are left, and always the last one.
+template <class Item>
+std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
+  if (items.size() <= most) return items;
+  std::vector<Item> kept;
+  const double stride = static_cast<double>(items.size() - 1) / static_cast<double>(most - 1);
+  for (std::size_t i = 0; i < most; ++i) {
+    kept.push_back(items[static_cast<std::size_t>(std::lround(stride * static_cast<double>(i)))]);
+  }
+  return kept;
+}
+
+/// Gathers run 0 for a picture: scan by scan, one tracker per contender.
+class ExampleRecorder {
+ public:
+  explicit ExampleRecorder(const Trial& trial)
+      : trial_(trial), trackers_(trial.contenders().size()), tracks_(trackers_.size()) {
+    for (const ObjectInfo& object : trial.objects()) {
+      example_.truth.push_back({object.name, object.regime, {}});
+    }
+  }
+
+  void sense(const SensedScan& scan) {
+    for (const TruthState& object : scan.truth->objects) {
+      example_.truth[static_cast<std::size_t>(object.id)].points.push_back(
+          point(scan.truth->time, object.position));
+    }
+    const Observation& observation = scan.observation;
+    for (std::size_t i = 0; i < observation.origins.size(); ++i) {
+      auto& points =
+          observation.origins[i] == kClutterOrigin ? example_.clutter : example_.detections;
+      points.push_back(point(scan.truth->time, observation.scan.detections[i].position));
+    }
+  }
+
+  void track(const SensedScan& sensed) {
+    const Observation& observation = sensed.observation;
+    for (std::size_t i = 0; i < trackers_.size(); ++i) {
+      trackers_[i] =
+          step(trial_.design(i), std::move(trackers_[i]), observation.scan, observation.origins);
+      for (const Track& track : trackers_[i].now.tracks) {
+        if (track.status == TrackStatus::kTentative) continue;
+        tracks_[i][track.id].push_back(
+            point(trackers_[i].now.time, estimate(track.filter).position));
+      }
+    }
+  }
+
+  /// At most so many points in all, shared out evenly.
+  ExampleRun example() && {
+    constexpr std::size_t kMostPaths = 30;
+    constexpr std::size_t kMostPoints = 1500;  // of each kind, and of each contender
+    const auto each = [](std::size_t paths) {
+      return std::max<std::size_t>(2, kMostPoints / std::max<std::size_t>(1, paths));
+    };
+    std::erase_if(example_.truth, [](const ExampleRun::Path& path) { return path.points.empty(); });
+    if (example_.truth.size() > kMostPaths) example_.truth.resize(kMostPaths);
+    for (ExampleRun::Path& path : example_.truth) {
+      path.points = thinned(path.points, std::min<std::size_t>(200, each(example_.truth.size())));
+    }
+    example_.detections = thinned(example_.detections, 600);
+    example_.clutter = thinned(example_.clutter, 200);
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      ExampleRun::Estimate& estimate = example_.estimates.emplace_back();
+      estimate.filter = i;
+      for (const auto& [id, points] : tracks_[i]) {
+        if (estimate.tracks.size() == kMostPaths) break;
+        estimate.tracks.push_back(
+            thinned(points, std::min<std::size_t>(200, each(tracks_[i].size()))));
+      }
+    }
+    return std::move(example_);
+  }
+
+ private:
+  static ExampleRun::Point point(double time, const Vec2& position) {
+    return {time, position.x(), position.y()};
+  }
+
+  const Trial& trial_;
+  std::vector<ReplayState> trackers_;
+  std::vector<std::map<int, std::vector<ExampleRun::Point>>> tracks_;  // by contender and track
+  ExampleRun example_;
+};
+
+/// The objects of a regime, as many as one can afford to walk through again and again.
+std::vector<SightedObject> few_of(const std::vector<SightedObject>& objects,
+                                  const Subject& regime) {
+  std::vector<SightedObject> few;
+  std::size_t scans = 0;
+  for (const SightedObject& object : objects) {
+    if (!belongs_to(object.id, regime)) continue;
+    if (!few.empty() && scans + object.sightings.size() > kMostWalked) break;
+    scans += object.sightings.size();
+    few.push_back(object);
+  }
+  return few;
+}
+
+GainSurface surface_of(const Trial& trial, const std::string& regime,
+                       const std::vector<SightedObject>& objects) {
+  GainSurface surface{.regime = regime, .g = {}, .h = {}, .rmse = {}, .best = {}, .marks = {}};
+  for (std::size_t i = 0; i < kGridSide; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(kGridSide - 1);
+    surface.g.push_back(0.02 + 0.98 * share);
+    surface.h.push_back(std::pow(10.0, -4.0 + 4.0 * share));
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const double g : surface.g) {
+    for (const double h : surface.h) {
+      const Gains gains = Gains::of_gh(g, h);
+      ErrorSum sum;
+      if (is_stable(gains)) {
+        const GainFilter<2> filter =
+            plain_filter(gains, trial.scoring().sigma, trial.scoring().period);
+        for (const SightedObject& object : objects) sum += expected_errors(filter, object);
+      }
+      surface.rmse.push_back(sum.rmse_position());
+      if (!(surface.rmse.back() < least)) continue;
+      least = surface.rmse.back();
+      surface.best = gains;
+    }
+  }
+  for (std::size_t i = 0; i < trial.contenders().size(); ++i) {
+    const Filter& filter = trial.design(i).filter_for(regime, 0);
+    const Gains gains = steady_gains(filter);
+    if (name(filter) == "gh") surface.marks.push_back({i, gains});
+  }
+  return surface;
+}
+
+}  // namespace
+
+std::vector<SubjectTheory> theory_of(const Trial& trial) {
+  const std::vector<GainFilter<2>> filters = candidates(trial.scoring());
+  std::vector<TheorySum> of_objects(trial.objects().size());
+  const int runs = std::min(kTheoryRuns, trial.scene().compare.runs);
+  for (int run = 0; run < runs; ++run) {
+    for (const SightedObject& object : sightings_of(trial, run)) {
+      of_objects[static_cast<std::size_t>(object.id)].add(object, filters);
+    }
+  }
+  std::vector<SubjectTheory> theory;
+  for (const Subject& subject : trial.subjects()) {
+    TheorySum sum;
+    for (const ObjectId id : subject.objects) {
+      const TheorySum& object = of_objects[static_cast<std::size_t>(id)];
+      if (object.scans > 0) sum += object;
+    }
+    theory.push_back(sum.theory());
+  }
+  return theory;
+}
+
+std::optional<double> predicted_velocity_rmse(const Gains& gains, const RunMetricsOptions& sensor,
+                                              const SubjectTheory& theory) {
+  const auto square = steady_mean_square(gains, sensor, theory,
+                                         [](const VarianceReduction& variance, const Lag& lag) {
+                                           return SteadyError{variance.dx, lag.dx};
+                                         });
+  if (!square) return std::nullopt;
+  return std::sqrt(*square);
+}
+
+// The length of a residual with two independent, equal normal components is on average √(π/4) of
+// its root mean square (Rayleigh).
+std::optional<double> predicted_mai(const Gains& gains, const RunMetricsOptions& sensor,
+                                    const SubjectTheory& theory) {
+  const auto square = steady_mean_square(
+      gains, sensor, theory, [](const VarianceReduction& variance, const Lag& lag) {
+        return SteadyError{1.0 + variance.prediction, lag.prediction};
+      });
+  if (!square) return std::nullopt;
+  return std::sqrt(0.25 * std::numbers::pi * *square);
+}
+
+std::vector<GainSurface> gain_surfaces(const Trial& trial) {
+  const std::vector<SightedObject> objects = sightings_of(trial, 0);
+  std::vector<GainSurface> surfaces;
+  for (const Subject& subject : trial.subjects()) {
+    if (subject.regime.empty() || !subject.object.empty()) continue;
+    const std::vector<SightedObject> few = few_of(objects, subject);
+    if (!few.empty()) surfaces.push_back(surface_of(trial, subject.regime, few));
+  }
+  return surfaces;
+}
+
+ExampleRun example_of(const Trial& trial) {
+  const WorldScene scene = scene_of_run(trial.scene(), 0);
+  const Setting setting{.objects = trial.objects(), .classes = regime_kinds(), .seed = scene.seed};
+  ExampleRecorder recorder(trial);
+  sense(
+      scene, setting, trial.truth_of(0), [&](const SensedScan& scan) { recorder.sense(scan); },
+      [&](const SensedScan& scan) { recorder.track(scan); });
+  return std::move(recorder).example();
+}
+
+}  // namespace ghtrack

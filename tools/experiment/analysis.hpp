@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tools/experiment/comparison.hpp"
+#include "tools/experiment/trial.hpp"
+
+namespace ghtrack {
+
+/// What theory says of one subject of a cell, from its truth alone.
+struct SubjectTheory {
+  double square_acceleration = 0.0;      // mean |a|² [m²/s⁴]
+  double square_jerk = 0.0;              // mean |da/dt|² [m²/s⁶]
+  std::optional<double> bound_position;  // least expected RMSE [m]
+  std::optional<double> bound_velocity;  // [m/s]
+};
+
+/// Theory for all subjects of a cell, averaged over its first runs.
+///
+/// The bound is the least expected error of 26 filters that are told which detection is whose: g-h
+/// and g-h-k with Kalata's gains for three tracking indices per decade, the best one chosen
+/// afterwards. For motion that is linear and Gaussian it is the steady Kalman filter's error.
+std::vector<SubjectTheory> theory_of(const Trial& trial);
+
+/// The RMSE of velocity and the mean absolute innovation that gains have in the steady state under
+/// these accelerations; absent for unstable gains.
+std::optional<double> predicted_velocity_rmse(const Gains& gains, const RunMetricsOptions& sensor,
+                                              const SubjectTheory& theory);
+std::optional<double> predicted_mai(const Gains& gains, const RunMetricsOptions& sensor,
+                                    const SubjectTheory& theory);
+
+/// The expected RMSE of position over a grid of g and h, for each regime, on run 0.
+std::vector<GainSurface> gain_surfaces(const Trial& trial);
+
+/// Run 0 of a cell, thinned out for a picture.
+ExampleRun example_of(const Trial& trial);
+
+}  // namespace ghtrack

@@ -1,0 +1,276 @@
+#include "tools/experiment/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "tools/experiment/analysis.hpp"
+#include "tools/experiment/engine.hpp"
+#include "tools/experiment/trial.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kConfidence = 0.95;
+constexpr double kFollowedEnough = 0.95;  // of the share that the most faithful filter follows
+
+/// What one cell adds to the comparison; filters are numbered as its contenders.
+struct CellOutcome {
+  std::vector<std::string> contenders;
+  ComparedCell cell;
+  std::vector<ComparisonRow> rows;
+};
+
+/// Numbers of all runs of a cell, one list per place in the layout.
+class RunValues {
+ public:
+  RunValues(const Results& results, std::size_t cell, int runs) {
+    for (int run = 0; run < runs; ++run) runs_.push_back(&results.at(cell, run));
+  }
+
+  std::vector<double> at(std::size_t place) const {
+    std::vector<double> values;
+    for (const std::vector<double>* run : runs_) values.push_back(run->at(place));
+    return values;
+  }
+
+ private:
+  std::vector<const std::vector<double>*> runs_;
+};
+
+/// Reduces the results of one cell.
+class CellReduction {
+ public:
+  CellReduction(const Trial& trial, RunValues values)
+      : trial_(trial), layout_(trial.layout()), values_(std::move(values)) {}
+
+  std::vector<ComparisonRow> rows() const {
+    const std::vector<SubjectTheory> theory = theory_of(trial_);
+    std::vector<ComparisonRow> all;
+    for (std::size_t subject = 0; subject < trial_.subjects().size(); ++subject) {
+      for (const Metric metric : all_metrics()) {
+        std::vector<ComparisonRow> rows = rows_of(subject, metric, theory[subject]);
+        all.insert(all.end(), rows.begin(), rows.end());
+      }
+    }
+    return all;
+  }
+
+  std::vector<ErrorCurve> curves() const {
+    std::vector<ErrorCurve> curves;
+    for (std::size_t regime = 0; regime < trial_.regimes().size(); ++regime) {
+      for (std::size_t contender = 0; contender < contenders(); ++contender) {
+        curves.push_back(curve(contender, regime));
+      }
+    }
+    return curves;
+  }
+
+ private:
+  std::size_t contenders() const { return trial_.contenders().size(); }
+
+  /// One metric of one subject, of all contenders that have it.
+  std::vector<ComparisonRow> rows_of(std::size_t subject, Metric metric,
+                                     const SubjectTheory& theory) const {
+    std::vector<ComparisonRow> rows;
+    std::vector<std::vector<double>> values;
+    for (std::size_t contender = 0; contender < contenders(); ++contender) {
+      std::vector<double> of_runs = values_.at(layout_.value(contender, subject, metric));
+      const SampleMean mean = mean_of(of_runs, info(metric).averaging);
+      if (mean.values == 0) continue;
+      ComparisonRow& row = rows.emplace_back();
+      row.filter = contender;
+      row.regime = trial_.subjects()[subject].regime;
+      row.object = trial_.subjects()[subject].object;
+      row.metric = metric;
+      row.gains = gains_of(contender, row.regime);
+      row.mean = mean.mean;
+      row.ci95 = mean.ci95;
+      row.runs = mean.values;
+      row.predicted = predicted(contender, subject, metric, theory);
+      if (metric == Metric::kRmsePosition) row.bound = theory.bound_position;
+      if (metric == Metric::kRmseVelocity) row.bound = theory.bound_velocity;
+      values.push_back(std::move(of_runs));
+    }
+    if (info(metric).better != Better::kNeither && rows.size() > 1) judge(subject, values, rows);
+    return rows;
+  }
+
+  /// Names the best of several rows if the differences allow it. A filter that loses its objects
+  /// much more often than another one cannot win: what it keeps may be the easy part.
+  void judge(std::size_t subject, const std::vector<std::vector<double>>& values,
+             std::vector<ComparisonRow>& rows) const {
+    const MetricInfo& metric = info(rows.front().metric);
+    const double sign = metric.better == Better::kLess ? 1.0 : -1.0;
+    std::vector<double> followed;
+    for (const ComparisonRow& row : rows) {
+      followed.push_back(
+          mean_of(values_.at(layout_.value(row.filter, subject, Metric::kTracked)), {}).mean);
+    }
+    const double enough = kFollowedEnough * *std::max_element(followed.begin(), followed.end());
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!(followed[i] >= enough)) continue;
+      if (!best || sign * rows[i].mean < sign * rows[*best].mean) best = i;
+    }
+    if (!best) return;
+
+    const double confidence = 1.0 - (1.0 - kConfidence) / static_cast<double>(rows.size() - 1);
+    bool alone = true;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ComparisonRow& row = rows[i];
+      if (i == *best) {
+        row.difference = 0.0;
+        continue;
+      }
+      const PairedDifference difference =
+          paired_difference(values[i], values[*best], metric.averaging, confidence);
+      if (!std::isnan(difference.value)) row.difference = difference.value;
+      row.difference_ci95 = difference.interval;
+      if (!difference.interval) return clear_verdicts(rows);
+      const Interval& range = *difference.interval;
+      const bool worse = sign > 0.0 ? range.low > 0.0 : range.high < 0.0;
+      row.verdict = worse || followed[i] < enough ? Verdict::kWorse : Verdict::kTied;
+      alone = alone && row.verdict == Verdict::kWorse;
+    }
+    rows[*best].verdict = alone ? Verdict::kBest : Verdict::kTied;
+  }
+
+  static void clear_verdicts(std::vector<ComparisonRow>& rows) {
+    for (ComparisonRow& row : rows) row.verdict = Verdict::kNone;
+  }
+
+  std::string gains_of(std::size_t contender, const std::string& regime) const {
+    const std::map<std::string, FilterConfig>& filters = trial_.contenders()[contender].filters;
+    const bool same_for_all =
+        filters.size() == 1 && filters.contains(std::string(TrackerConfig::kDefaultFilter));
+    if (regime.empty() && !same_for_all) return "";
+    const Filter& filter = trial_.design(contender).filter_for(regime, 0);
+    if (std::holds_alternative<MultipleModelFilter>(filter)) return "multiple-model";
+    return std::string(name(filter)) + " " + gains_text(filter);
+  }
+
+  std::optional<double> predicted(std::size_t contender, std::size_t subject, Metric metric,
+                                  const SubjectTheory& theory) const {
+    const auto mean_at = [&](std::size_t place, const Averaging& averaging) {
+      const SampleMean mean = mean_of(values_.at(place), averaging);
+      return mean.values > 0 ? std::optional(mean.mean) : std::nullopt;
+    };
+    const std::string& regime = trial_.subjects()[subject].regime;
+    const Filter& filter = trial_.design(contender).filter_for(regime, 0);
+    const bool one_filter = !regime.empty() && !std::holds_alternative<MultipleModelFilter>(filter);
+    switch (metric) {
+      case Metric::kRmsePosition:
+        return mean_at(layout_.predicted_rmse(contender, subject), info(metric).averaging);
+      case Metric::kLag:
+        return mean_at(layout_.predicted_lag(contender, subject), info(metric).averaging);
+      case Metric::kNis:
+        return 2.0;
+      case Metric::kRmseVelocity:
+        if (!one_filter) return std::nullopt;
+        return predicted_velocity_rmse(steady_gains(filter), trial_.scoring(), theory);
+      case Metric::kMai:
+        if (!one_filter) return std::nullopt;
+        return predicted_mai(steady_gains(filter), trial_.scoring(), theory);
+      default:
+        return std::nullopt;
+    }
+  }
+
+  ErrorCurve curve(std::size_t contender, std::size_t regime) const {
+    ErrorCurve curve{.filter = contender, .regime = trial_.regimes()[regime], .points = {}};
+    const double width = trial_.scene().duration / double{TrialLayout::kBins};
+    for (std::size_t bin = 0; bin < TrialLayout::kBins; ++bin) {
+      const std::vector<double> squares = values_.at(layout_.curve(contender, regime, bin));
+      const SampleMean mean = mean_of(squares, {});
+      if (mean.values == 0) continue;
+      curve.points.push_back({.time = (static_cast<double>(bin) + 0.5) * width,
+                              .rmse = std::sqrt(mean.mean),
+                              .band = {std::sqrt(sample_quantile(squares, 0.05)),
+                                       std::sqrt(sample_quantile(squares, 0.95))}});
+    }
+    return curve;
+  }
+
+  const Trial& trial_;
+  TrialLayout layout_;
+  RunValues values_;
+};
+
+CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::size_t index) {
+  Trial trial(cell.scene);
+  trial.record_truth();
+  const CellReduction reduction(trial, RunValues(results, index, cell.runs()));
+  CellOutcome outcome;
+  for (const Contender& contender : trial.contenders()) {
+    outcome.contenders.push_back(contender.name);
+  }
+  outcome.rows = reduction.rows();
+  outcome.cell = {.scene = cell.scene.name,
+                  .file = cell.file,
+                  .sweep = cell.sweep,
+                  .runs = cell.runs(),
+                  .seed = cell.scene.seed,
+                  .duration = cell.scene.duration,
+                  .sigma = trial.scoring().sigma,
+                  .period = trial.scoring().period,
+                  .regimes = trial.regimes(),
+                  .curves = reduction.curves(),
+                  .example = example_of(trial),
+                  .surfaces = gain_surfaces(trial)};
+  return outcome;
+}
+
+/// Numbers the cell's filters as the whole comparison does, which learns the new ones.
+void renumber(CellOutcome& outcome, std::vector<std::string>& filters) {
+  std::vector<std::size_t> number;
+  for (const std::string& name : outcome.contenders) {
+    const auto found = std::find(filters.begin(), filters.end(), name);
+    number.push_back(static_cast<std::size_t>(found - filters.begin()));
+    if (found == filters.end()) filters.push_back(name);
+  }
+  for (ComparisonRow& row : outcome.rows) row.filter = number[row.filter];
+  for (ErrorCurve& curve : outcome.cell.curves) curve.filter = number[curve.filter];
+  for (ExampleRun::Estimate& estimate : outcome.cell.example.estimates) {
+    estimate.filter = number[estimate.filter];
+  }
+  for (GainSurface& surface : outcome.cell.surfaces) {
+    for (GainSurface::Mark& mark : surface.marks) mark.filter = number[mark.filter];
+  }
+}
+
+}  // namespace
+
+Comparison compare(const Campaign& campaign, const Results& results, int jobs) {
+  std::vector<CellOutcome> outcomes(campaign.cells.size());
+  in_parallel(outcomes.size(), jobs,
+              [&](std::size_t i) { outcomes[i] = outcome_of(campaign.cells[i], results, i); });
+  Comparison comparison;
+  for (CellOutcome& outcome : outcomes) {
+    renumber(outcome, comparison.filters);
+    for (ComparisonRow& row : outcome.rows) {
+      row.cell = comparison.cells.size();
+      comparison.rows.push_back(std::move(row));
+    }
+    comparison.cells.push_back(std::move(outcome.cell));
+  }
+  return comparison;
+}
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNone:
+      return "";
+    case Verdict::kBest:
+      return "best";
+    case Verdict::kTied:
+      return "tied";
+    case Verdict::kWorse:
+      return "worse";
+  }
+  return "";
+}
+
+}  // namespace ghtrack

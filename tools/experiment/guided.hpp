@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sensors/detection.hpp"
+#include "sim/truth.hpp"
+#include "tools/experiment/trial.hpp"
+#include "tracker/filters/filter.hpp"
+
+// Filters that are told which detection is whose, one object at a time: what is left of a tracking
+// problem when association is taken away. Gains are searched for and bounds are found here.
+
+namespace ghtrack {
+
+/// One scan as far as it concerns one object.
+struct Sighting {
+  double time = 0.0;  // [s]
+  TruthState truth;
+  std::optional<Detection> detection;  // made by the object
+};
+
+/// An object from its first detection to its end.
+struct SightedObject {
+  ObjectId id = 0;
+  std::vector<Sighting> sightings;
+};
+
+/// All objects of one run that are detected at all, by id.
+std::vector<SightedObject> sightings_of(const Trial& trial, int run);
+
+/// Sums of squared errors over the scans from the third detection on.
+struct ErrorSum {
+  double position = 0.0;  // [m²]
+  double velocity = 0.0;  // [m²/s²]
+  std::int64_t scans = 0;
+
+  ErrorSum& operator+=(const ErrorSum& other);
+  /// √ mean; NaN without scans.
+  double rmse_position() const;
+  double rmse_velocity() const;
+};
+
+/// The errors that a filter makes with the detections as they are.
+/// @param filter  has not started yet
+ErrorSum measured_errors(Filter filter, const SightedObject& object);
+
+/// The errors to be expected of a filter over all measurement noise, given which scans detected the
+/// object: the squared lag of the filter on noiseless detections, and the variance that it carries
+/// along, both exact for errors of the covariance that detections tell.
+/// @param filter  has not started yet, and allows for no acceleration
+ErrorSum expected_errors(GainFilter<2> filter, const SightedObject& object);
+
+/// A filter with given gains, least squares at the start, that allows for no acceleration.
+GainFilter<2> plain_filter(const Gains& gains, double sigma, double period);
+
+}  // namespace ghtrack

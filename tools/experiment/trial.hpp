@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/experiment/campaign.hpp"
+#include "tools/experiment/metric.hpp"
+#include "tools/metrics/run_metrics.hpp"
+#include "tools/pipeline/sensing.hpp"
+#include "tracker/tracker.hpp"
+
+namespace ghtrack {
+
+/// Whom the metrics of a cell are about, in this order: its objects one by one if they are few, its
+/// regimes, the scene as a whole.
+struct Subject {
+  std::string regime;             // empty: the scene as a whole
+  std::string object;             // empty: all objects of the regime
+  std::vector<ObjectId> objects;  // that belong to it
+};
+
+/// What one run of a cell yields, as a flat list of numbers: what is stored, sent and averaged. NaN
+/// is a value that did not occur.
+class TrialLayout {
+ public:
+  static constexpr std::size_t kBins = 48;  // of a scene's time, for its error curves
+
+  TrialLayout(std::size_t contenders, std::size_t subjects, std::size_t regimes)
+      : contenders_(contenders), subjects_(subjects), regimes_(regimes) {}
+
+  std::size_t size() const { return contenders_ * per_contender(); }
+
+  std::size_t value(std::size_t contender, std::size_t subject, Metric metric) const {
+    return contender * per_contender() + subject * kPerSubject + static_cast<std::size_t>(metric);
+  }
+  /// The closed forms' RMSE of position, and their lag.
+  std::size_t predicted_rmse(std::size_t contender, std::size_t subject) const {
+    return contender * per_contender() + subject * kPerSubject + kMetrics;
+  }
+  std::size_t predicted_lag(std::size_t contender, std::size_t subject) const {
+    return predicted_rmse(contender, subject) + 1;
+  }
+  /// Mean squared error of a regime's objects in a bin of time [m²].
+  std::size_t curve(std::size_t contender, std::size_t regime, std::size_t bin) const {
+    return contender * per_contender() + subjects_ * kPerSubject + regime * kBins + bin;
+  }
+
+ private:
+  static constexpr std::size_t kPerSubject = kMetrics + 2;
+  std::size_t per_contender() const { return subjects_ * kPerSubject + regimes_ * kBins; }
+
+  std::size_t contenders_;
+  std::size_t subjects_;
+  std::size_t regimes_;
+};
+
+/// One cell of a campaign, ready to run. Constant operations are safe to use from several threads.
+class Trial {
+ public:
+  /// @throws std::invalid_argument if a filter cannot be designed for the scene's sensors
+  explicit Trial(const WorldScene& scene);
+
+  const WorldScene& scene() const { return scene_; }
+  const std::vector<ObjectInfo>& objects() const { return objects_; }
+  const std::vector<Contender>& contenders() const { return contenders_; }
+  const std::vector<Subject>& subjects() const { return subjects_; }
+  const std::vector<std::string>& regimes() const { return regimes_; }
+  const TrackerDesign& design(std::size_t contender) const { return designs_.at(contender); }
+  const RunMetricsOptions& scoring() const { return scoring_; }
+  TrialLayout layout() const { return {contenders_.size(), subjects_.size(), regimes_.size()}; }
+
+  /// Simulates the truth once for all runs to come, where they share it and it fits into memory.
+  /// Without it every run simulates its own.
+  /// @param on_scan  called before each scan; may throw to give up
+  void record_truth(const std::function<void()>& on_scan = [] {});
+
+  /// The truth of one run, scan by scan in the order of time.
+  TruthSource truth_of(int run) const;
+
+  /// Runs every contender on the same detections and scores them.
+  /// @param on_scan  called before each scan; may throw to give up
+  /// @return numbers as layout() says
+  std::vector<double> scores(
+      int run, const std::function<void()>& on_scan = [] {}) const;
+
+ private:
+  WorldScene scene_;
+  std::vector<ObjectInfo> objects_;
+  std::vector<Contender> contenders_;
+  std::vector<TrackerDesign> designs_;
+  std::vector<std::string> regimes_;
+  std::vector<Subject> subjects_;
+  RunMetricsOptions scoring_;
+  std::vector<std::shared_ptr<const TruthSnapshot>> truth_;  // by scan; empty: not recorded
+};
+
+}  // namespace ghtrack
