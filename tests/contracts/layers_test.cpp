@@ -31,7 +31,11 @@ const std::map<std::string, Folders> kAllowed = {
       "scenes/schema/video_layer.hpp"}},
     {"tools/experiment",
      {"tools/pipeline", "tools/metrics", "tools/record", "scenes", "sim", "sensors", "tracker"}},
-    {"tools/report", {"tools/experiment", "tools/metrics", "tools/record", "scenes", "tracker"}},
+    {"tools/html", {}},
+    {"tools/playground", {"tools/html", "tools/pipeline/series.hpp", "tracker/filters"}},
+    {"tools/report",
+     {"tools/html", "tools/playground", "tools/experiment", "tools/metrics", "tools/record",
+      "scenes", "tracker"}},
     {"tools/cli", {"tools", "scenes", "sim", "sensors", "tracker"}},
     {"tools/bench", {"tools", "scenes", "sim", "sensors", "tracker"}},
 };
@@ -42,6 +46,7 @@ const std::map<std::string, Folders> kOwners = {
     {"opencv2/", {"tools/render", "tools/bench"}},
     {"yaml-cpp/", {"scenes/schema"}},
     {"CLI/", {"tools/cli"}},
+    {"kainjow/", {"tools/html/template.cpp"}},
     {"Random123/", {"sim/random.cpp"}},
     {"oneapi/tbb/", {"tools/experiment/engine.cpp", "tools/render"}},
 };

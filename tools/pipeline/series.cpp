@@ -9,25 +9,10 @@
 namespace ghtrack {
 namespace {
 
-struct Measurement {
-  double z = 0.0;
-  std::optional<double> truth;
-};
-
 using Vector1 = Eigen::Matrix<double, 1, 1>;
 
-std::vector<Measurement> measure(const GeneratedSeries& series, double dt, std::uint64_t seed) {
-  std::vector<Measurement> measurements;
-  for (int i = 0; i < series.points; ++i) {
-    const double truth = series.truth(i, dt);
-    Stream noise(seed, Purpose::kMeasurementNoise, key_of("series"), static_cast<std::uint64_t>(i));
-    measurements.push_back({truth + series.noise * noise.normal(), truth});
-  }
-  return measurements;
-}
-
-std::vector<Measurement> measure(const GivenSeries& series, double, std::uint64_t) {
-  std::vector<Measurement> measurements;
+std::vector<SeriesMeasurement> measure(const GivenSeries& series, double, std::uint64_t) {
+  std::vector<SeriesMeasurement> measurements;
   for (std::size_t i = 0; i < series.measurements.size(); ++i) {
     measurements.push_back({series.measurements[i], std::nullopt});
     if (!series.truth.empty()) measurements.back().truth = series.truth[i];
@@ -57,7 +42,7 @@ class MeanSquare {
 };
 
 SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
-                   const std::vector<Measurement>& measurements) {
+                   const std::vector<SeriesMeasurement>& measurements) {
   const Gains gains = std::visit([](const auto& model) { return gains_of(model); }, config.model);
   const double dt = config.dt.value_or(scene.dt);
   Kinematics<1> guess;
@@ -79,7 +64,7 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
   double innovations = 0.0;
   int used = 0;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
-    const Measurement& now = measurements[i];
+    const SeriesMeasurement& now = measurements[i];
     const bool is_guess = i == 0 && guess_is_first;
     if (!is_guess) filter.predict(dt);
     const Kinematics<1> prior = filter.estimate();
@@ -115,12 +100,23 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
 
 }  // namespace
 
+std::vector<SeriesMeasurement> measure(const GeneratedSeries& series, double dt,
+                                       std::uint64_t seed) {
+  std::vector<SeriesMeasurement> measurements;
+  for (int i = 0; i < series.points; ++i) {
+    const double truth = series.truth(i, dt);
+    Stream noise(seed, Purpose::kMeasurementNoise, key_of("series"), static_cast<std::uint64_t>(i));
+    measurements.push_back({truth + series.noise * noise.normal(), truth});
+  }
+  return measurements;
+}
+
 SeriesResult run(const SeriesScene& scene) {
-  const std::vector<Measurement> measurements = std::visit(
+  const std::vector<SeriesMeasurement> measurements = std::visit(
       [&](const auto& series) { return measure(series, scene.dt, scene.seed); }, scene.data);
   SeriesResult result;
   MeanSquare errors;
-  for (const Measurement& measurement : measurements) {
+  for (const SeriesMeasurement& measurement : measurements) {
     if (measurement.truth) errors.add(measurement.z - *measurement.truth);
   }
   result.measurement_rmse = errors.root();

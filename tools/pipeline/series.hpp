@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,17 @@ struct SeriesResult {
   std::vector<SeriesTrack> tracks;         // in the order of the scene's filters
   std::optional<double> measurement_rmse;  // √ mean (z − truth)²
 };
+
+/// A measurement before any filter has seen it.
+struct SeriesMeasurement {
+  double z = 0.0;
+  std::optional<double> truth;
+};
+
+/// Measurements by a law of motion; the noise of a point depends on the seed and its number alone.
+/// @param dt  time between points [s]
+std::vector<SeriesMeasurement> measure(const GeneratedSeries& series, double dt,
+                                       std::uint64_t seed);
 
 /// Generates or takes the measurements of a scene and runs each of its filters over them.
 SeriesResult run(const SeriesScene& scene);

@@ -1,0 +1,71 @@
+# C++ for WebAssembly with Debian's clang, lld, wasi-libc and libc++, beside the native build.
+
+find_program(GHTRACK_WASM_CXX NAMES clang++ clang++-14 DOC "clang++ for wasm32-wasi")
+set(GHTRACK_WASM_FLAGS
+    --target=wasm32-wasi
+    -std=c++20
+    -O2
+    -flto
+    # The same bits as the native build, see GhtrackTargets.cmake.
+    -ffp-contract=off
+    -fno-math-errno
+    -fno-rtti
+    -fvisibility=hidden
+    -DNDEBUG)
+
+# ghtrack_find_wasm(<variable>)
+# Whether a program with a container and an exported function can be compiled and linked.
+function(ghtrack_find_wasm variable)
+  if(NOT DEFINED GHTRACK_WASM_WORKS)
+    set(probe "${CMAKE_BINARY_DIR}/CMakeFiles/wasm_probe")
+    file(WRITE "${probe}.cpp" "#include <vector>\n#include <cmath>\n"
+         "extern \"C\" [[clang::export_name(\"f\")]] double f(int n) {\n"
+         "  return std::sqrt(std::vector<double>(n, 2.0).back());\n}\n")
+    set(status 1)
+    if(GHTRACK_WASM_CXX)
+      execute_process(
+        COMMAND "${GHTRACK_WASM_CXX}" ${GHTRACK_WASM_FLAGS} -fno-exceptions -mexec-model=reactor "${probe}.cpp" -o
+                "${probe}.wasm"
+        RESULT_VARIABLE status
+        OUTPUT_QUIET ERROR_FILE "${probe}.log")
+    endif()
+    if(status EQUAL 0)
+      set(GHTRACK_WASM_WORKS ON CACHE INTERNAL "clang++ makes WebAssembly")
+    else()
+      # Not remembered, so that installing the packages is enough.
+      set(GHTRACK_WASM_WORKS OFF)
+    endif()
+  endif()
+  set(${variable} ${GHTRACK_WASM_WORKS} PARENT_SCOPE)
+endfunction()
+
+# ghtrack_add_wasm(<file.wasm> SOURCES ... [INCLUDES folders...] [DEFINITIONS ...])
+# One module without imports: what the sources export, and `memory`.
+function(ghtrack_add_wasm wasm)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;INCLUDES;DEFINITIONS")
+  list(TRANSFORM arg_INCLUDES PREPEND -isystem)
+  list(TRANSFORM arg_DEFINITIONS PREPEND -D)
+  set(objects)
+  foreach(source IN LISTS arg_SOURCES)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY "${CMAKE_SOURCE_DIR}")
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${CMAKE_SOURCE_DIR}" OUTPUT_VARIABLE name)
+    string(REPLACE "/" "_" name "${name}")
+    set(object "${CMAKE_CURRENT_BINARY_DIR}/wasm/${name}.o")
+    add_custom_command(
+      OUTPUT "${object}"
+      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${GHTRACK_WASM_CXX}" ${GHTRACK_WASM_FLAGS}
+              "-I${CMAKE_SOURCE_DIR}" ${arg_INCLUDES} ${arg_DEFINITIONS} -MD -MF "${object}.d" -c "${source}" -o "${object}"
+      DEPENDS "${source}"
+      DEPFILE "${object}.d"
+      COMMENT "Building WebAssembly object ${name}"
+      VERBATIM COMMAND_EXPAND_LISTS)
+    list(APPEND objects "${object}")
+  endforeach()
+  add_custom_command(
+    OUTPUT "${wasm}"
+    COMMAND "${GHTRACK_WASM_CXX}" ${GHTRACK_WASM_FLAGS} -mexec-model=reactor -Wl,--strip-all
+            ${objects} -o "${wasm}"
+    DEPENDS ${objects}
+    COMMENT "Linking ${wasm}"
+    VERBATIM)
+endfunction()
