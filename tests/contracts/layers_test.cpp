@@ -48,6 +48,7 @@ const std::map<std::string, Folders> kOwners = {
     {"CLI/", {"tools/cli"}},
     {"kainjow/", {"tools/html/template.cpp"}},
     {"Random123/", {"sim/random.cpp"}},
+    {"nlopt", {"tools/experiment/gain_search.cpp"}},
     {"oneapi/tbb/", {"tools/experiment/engine.cpp", "tools/render"}},
 };
 

@@ -53,6 +53,15 @@ struct CompareOptions {
   bool resume = false;
 };
 
+struct TuneOptions {
+  SceneOptions scene;
+  std::string output;       // folder for files; empty: none are written
+  int runs = 50;            // for finding gains, and as many others for judging them
+  std::optional<int> jobs;  // threads; as many as the machine has
+  std::string filter;       // gh or ghk; empty: both
+  std::string design;       // only gains of this rule; empty: all stable ones
+};
+
 struct FilterCommandOptions {
   std::string file = "-";  // series, or - for standard input
   std::string filter = "gh";
@@ -97,6 +106,7 @@ struct ScoreOptions {
 int run(const RunOptions& options, const Manners& manners);
 int video(const VideoCommandOptions& options, const Manners& manners);
 int compare(const CompareOptions& options, const Manners& manners);
+int tune(const TuneOptions& options, const Manners& manners);
 int check(const SceneOptions& options, const Manners& manners);
 int schema();
 int reference();

@@ -107,6 +107,25 @@ void add_compare(CLI::App& app, CompareOptions& options) {
       "  ghtrack compare --merge out/parts");
 }
 
+void add_tune(CLI::App& app, TuneOptions& options) {
+  CLI::App& command = *app.add_subcommand("tune", "Find the best gains for each regime of a scene");
+  add_scene_options(command, options.scene, false);
+  command.add_option("-o,--output", options.output,
+                     "folder for tuning.json, gains.yaml and error surfaces (default: no files)");
+  command.add_option("--runs", options.runs, "runs for tuning, and as many others for judging")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  command.add_option("--jobs", options.jobs, "threads (default: one per processor)")
+      ->check(CLI::Range(1, 1024));
+  command.add_option("--filter", options.filter, "gh or ghk (default: both)");
+  command.add_option("--design", options.design,
+                     "only gains of a rule: benedict-bordner, critical-damping or tracking-index");
+  command.footer(
+      "Examples:\n"
+      "  ghtrack tune scenes/three_regimes.yaml --runs 10\n"
+      "  ghtrack tune scenes/throwing.yaml --runs 5 --filter gh --design benedict-bordner");
+}
+
 void add_check(CLI::App& app, SceneOptions& options) {
   CLI::App& command = *app.add_subcommand("check", "Validate scene files without running them");
   add_scene_options(command, options, true);
@@ -277,6 +296,7 @@ int dispatch(int argc, char** argv) {
   RunOptions run_options;
   VideoCommandOptions video_options;
   CompareOptions compare_options;
+  TuneOptions tune_options;
   SceneOptions check_options;
   FilterCommandOptions filter_options;
   GainsCommandOptions gains_options;
@@ -285,6 +305,7 @@ int dispatch(int argc, char** argv) {
   add_run(app, run_options);
   add_video(app, video_options);
   add_compare(app, compare_options);
+  add_tune(app, tune_options);
   add_check(app, check_options);
   app.add_subcommand("schema", "Print the JSON Schema of scene files")
       ->footer("Examples:\n  ghtrack schema > scenes/scene.schema.json");
@@ -305,6 +326,7 @@ int dispatch(int argc, char** argv) {
       {"run", [&] { return run(run_options, manners); }},
       {"video", [&] { return video(video_options, manners); }},
       {"compare", [&] { return compare(compare_options, manners); }},
+      {"tune", [&] { return tune(tune_options, manners); }},
       {"check", [&] { return check(check_options, manners); }},
       {"schema", [] { return schema(); }},
       {"reference", [] { return reference(); }},

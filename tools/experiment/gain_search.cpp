@@ -1,0 +1,136 @@
+// The only file that knows NLopt.
+
+#include "tools/experiment/gain_search.hpp"
+
+#include <nlopt.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "tracker/filters/gains/rules.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kLargestShare = 0.999;  // of the way to the edge of the stability region
+constexpr double kHugeCost = 1e300;      // NLopt does not take +∞
+
+/// From `low` to `high` in equal ratios.
+double between(double low, double high, double parameter) {
+  return low * std::pow(high / low, parameter);
+}
+
+Gains stable_gh(std::span<const double> p) {
+  const double g = between(1e-3, 1.99, p[0]);
+  return Gains::of_gh(g, between(1e-6, kLargestShare, p[1]) * (4.0 - 2.0 * g));
+}
+
+Gains stable_ghk(std::span<const double> p) {
+  const Gains gh = stable_gh(p);
+  const double most = gh.g * gh.h / (2.0 - gh.g);
+  return Gains::of_ghk(gh.g, gh.h, between(1e-6, kLargestShare, p[2]) * most);
+}
+
+double g_of(double parameter) { return between(1e-3, 0.999, parameter); }
+
+Gains benedict_bordner_gh(std::span<const double> p) { return benedict_bordner_gains(g_of(p[0])); }
+Gains benedict_bordner_ghk(std::span<const double> p) {
+  return third_order_benedict_bordner_gains(g_of(p[0]));
+}
+Gains critically_damped_gh(std::span<const double> p) {
+  return fading_memory_gains(1, std::sqrt(1.0 - g_of(p[0])));
+}
+Gains critically_damped_ghk(std::span<const double> p) {
+  return fading_memory_gains(2, std::cbrt(1.0 - g_of(p[0])));
+}
+Gains kalata_gh(std::span<const double> p) {
+  return tracking_index_gains(1, between(1e-6, 1e2, p[0]));
+}
+Gains kalata_ghk(std::span<const double> p) {
+  return tracking_index_gains(2, between(1e-6, 1e2, p[0]));
+}
+
+constexpr std::array<GainFamily, 6> kRules = {{
+    {"benedict-bordner", 1, 1, benedict_bordner_gh},
+    {"benedict-bordner", 2, 1, benedict_bordner_ghk},
+    {"critical-damping", 1, 1, critically_damped_gh},
+    {"critical-damping", 2, 1, critically_damped_ghk},
+    {"tracking-index", 1, 1, kalata_gh},
+    {"tracking-index", 2, 1, kalata_ghk},
+}};
+
+/// What NLopt minimises, and the best that it has seen.
+struct Search {
+  const GainFamily& family;
+  const std::function<double(const Gains&)>& cost;
+  std::vector<double> best;
+  double least = std::numeric_limits<double>::infinity();
+
+  static double evaluate(unsigned count, const double* parameters, double* /*gradient*/,
+                         void* data) {
+    auto& search = *static_cast<Search*>(data);
+    const std::span<const double> at(parameters, count);
+    const double cost = search.cost(search.family.at(at));
+    if (cost < search.least) {
+      search.least = cost;
+      search.best.assign(at.begin(), at.end());
+    }
+    return std::isfinite(cost) ? cost : kHugeCost;
+  }
+
+  void run(nlopt_algorithm algorithm, int evaluations) {
+    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(
+        nlopt_create(algorithm, family.parameters), nlopt_destroy);
+    nlopt_set_min_objective(optimiser.get(), evaluate, this);
+    nlopt_set_lower_bounds1(optimiser.get(), 0.0);
+    nlopt_set_upper_bounds1(optimiser.get(), 1.0);
+    nlopt_set_maxeval(optimiser.get(), evaluations);
+    nlopt_set_xtol_abs1(optimiser.get(), 1e-5);
+    if (algorithm == NLOPT_LN_SBPLX) nlopt_set_initial_step1(optimiser.get(), 0.05);
+    std::vector<double> parameters = best;
+    double value = 0.0;
+    const nlopt_result result = nlopt_optimize(optimiser.get(), parameters.data(), &value);
+    if (result == NLOPT_INVALID_ARGS || result == NLOPT_OUT_OF_MEMORY) {
+      throw std::runtime_error("the optimiser failed: " +
+                               std::string(nlopt_result_to_string(result)));
+    }
+  }
+};
+
+}  // namespace
+
+GainFamily stable_gains(int order) {
+  if (order == 1) return {"manual", 1, 2, stable_gh};
+  if (order == 2) return {"manual", 2, 3, stable_ghk};
+  throw std::invalid_argument("gains are searched for order 1 or 2");
+}
+
+std::optional<GainFamily> gains_of_rule(std::string_view rule, int order) {
+  for (const GainFamily& family : kRules) {
+    if (family.name == rule && family.order == order) return family;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> rules_with_a_family() {
+  std::vector<std::string_view> names;
+  for (const GainFamily& family : kRules) {
+    if (family.order == 1) names.push_back(family.name);
+  }
+  return names;
+}
+
+FoundGains least_cost(const GainFamily& family, const std::function<double(const Gains&)>& cost) {
+  constexpr int kRough = 80;  // evaluations per parameter
+  constexpr int kFine = 120;
+  Search search{family, cost, std::vector<double>(family.parameters, 0.5)};
+  const int parameters = static_cast<int>(family.parameters);
+  search.run(NLOPT_GN_DIRECT_L, kRough * parameters * parameters);
+  search.run(NLOPT_LN_SBPLX, kFine * parameters);
+  return {family.at(search.best), search.least};
+}
+
+}  // namespace ghtrack

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/schema/scene.hpp"
+#include "tools/experiment/comparison.hpp"
+#include "tracker/filters/filter_config.hpp"
+
+// Gains for each regime of a scene, found on some seeds and judged on others.
+
+namespace ghtrack {
+
+struct TuningOptions {
+  int runs = 50;                     // for finding, and as many others for judging
+  std::vector<int> orders = {1, 2};  // of the filters: 1 g-h, 2 g-h-k
+  std::optional<std::string> rule;   // only gains of this rule, such as "benedict-bordner"
+  int jobs = 1;
+};
+
+/// How good some gains turned out to be. All of them are told which detection is whose.
+struct JudgedGains {
+  std::string origin;            // "tuned", a design rule, or a filter named in the scene
+  std::string filter;            // "gh", "ghk", …
+  std::string gains;             // "g=0.4 h=0.1"
+  double trained_rmse = 0.0;     // on the seeds that gains were tuned on [m]
+  double rmse = 0.0;             // on the other ones [m]
+  std::optional<Interval> ci95;  // of it
+  double difference = 0.0;       // to the winner of tuning, paired by runs [m]
+  std::optional<Interval> difference_ci95;
+};
+
+/// What was found for one regime.
+struct TunedRegime {
+  std::string regime;
+  double acceleration = 0.0;        // root mean square per axis, of the truth [m/s²]
+  double tracking_index = 0.0;      // acceleration · T² / σ
+  std::optional<double> bound;      // on the judging runs, see theory_of() [m]
+  Gains best;                       // the tuned gains with the least error in training
+  std::vector<JudgedGains> judged;  // tuned, designed, named in the scene
+};
+
+struct Tuning {
+  std::string scene;
+  int runs = 0;
+  double sigma = 0.0;   // of a detection per axis [m]
+  double period = 0.0;  // between scans [s]
+  std::vector<TunedRegime> regimes;
+  std::vector<GainSurface> surfaces;
+};
+
+/// Tunes gains for every regime of a scene. Runs 0 to N − 1 are for finding, N to 2N − 1 for
+/// judging. What is minimised is the mean squared error of position from an object's third
+/// detection on; a table of least-squares gains serves the start, as in a tracker.
+/// @throws std::invalid_argument for a rule that has no family of gains
+Tuning tune(const WorldScene& scene, const TuningOptions& options);
+
+/// The best gains as a part of a scene, to be pasted under `tracker`.
+std::string scene_fragment(const Tuning& tuning);
+
+nlohmann::ordered_json to_json(const Tuning& tuning);
+std::string to_table(const Tuning& tuning);
+
+}  // namespace ghtrack
