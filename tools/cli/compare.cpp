@@ -20,6 +20,7 @@
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/journal.hpp"
 #include "tools/experiment/run_table.hpp"
+#include "tools/ranks/ranks.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
 
@@ -71,7 +72,8 @@ void compute_share(const Campaign& campaign, const Shard& shard, const fs::path&
                    const CompareOptions& options, const Manners& manners, Results& results) {
   Journal journal(folder, shard, campaign, options.resume);
   Progress progress("comparing", "runs",
-                    static_cast<std::size_t>(runs_to_do(campaign, shard, results)), manners.quiet);
+                    static_cast<std::size_t>(runs_to_do(campaign, shard, results)),
+                    manners.quiet || shard.index > 0);
   try {
     compute(campaign, shard, results, threads(options), stop_if_interrupted,
             [&](std::size_t cell, int run, std::vector<double> scores) {
@@ -154,15 +156,24 @@ int compare(const CompareOptions& options, const Manners& manners) {
 
   const fs::path folder = options.output.empty() ? "out/comparison" : options.output;
   make_folder(folder);
+  Ranks& ranks = join_ranks();
+  const bool is_part = !options.shard.empty();
+  const Shard shard = is_part ? parse_shard(options.shard) : Shard{ranks.index(), ranks.count()};
   Results results(campaign);
   if (options.resume) {
     for (const fs::path& journal : journals_in(folder, true)) {
       read_journal(journal, campaign, results);
     }
+    ranks.wait_for_all();
   }
-  const Shard shard = options.shard.empty() ? Shard{} : parse_shard(options.shard);
   compute_share(campaign, shard, folder, options, manners, results);
-  if (options.shard.empty()) publish(campaign, results, folder, threads(options), manners);
+  if (is_part) return 0;
+  ranks.wait_for_all();
+  if (shard.index != 0) return 0;
+  for (int i = 1; i < shard.count; ++i) {
+    read_journal(journal_path(folder, {i, shard.count}), campaign, results);
+  }
+  publish(campaign, results, folder, threads(options), manners);
   return 0;
 }
 

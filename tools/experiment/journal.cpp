@@ -145,8 +145,7 @@ std::int64_t Results::missing() const {
 
 Journal::Journal(const fs::path& folder, const Shard& shard, const Campaign& campaign,
                  bool resume) {
-  path_ = folder / ("shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count));
-  path_ += kExtension;
+  path_ = journal_path(folder, shard);
   partial_path_ = path_;
   partial_path_ += kPartial;
   const std::string header = header_of(campaign);
@@ -187,6 +186,13 @@ void Journal::write(const std::string& bytes) {
 void Journal::fail() const {
   throw WriteError(partial_path_.string() +
                    ": error: cannot write: " + std::generic_category().message(errno));
+}
+
+fs::path journal_path(const fs::path& folder, const Shard& shard) {
+  fs::path path =
+      folder / ("shard-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count));
+  path += kExtension;
+  return path;
 }
 
 std::vector<fs::path> journals_in(const fs::path& folder, bool partial_ones) {

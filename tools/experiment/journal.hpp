@@ -66,6 +66,9 @@ class Journal {
   int descriptor_ = -1;
 };
 
+/// The complete journal of a share.
+std::filesystem::path journal_path(const std::filesystem::path& folder, const Shard& shard);
+
 /// The journals in a folder, complete ones and, if wanted, partial ones; sorted by name.
 std::vector<std::filesystem::path> journals_in(const std::filesystem::path& folder,
                                                bool partial_ones);

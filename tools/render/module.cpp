@@ -1,11 +1,9 @@
 #include "tools/render/module.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <string>
-#include <system_error>
 
+#include "tools/modules/module.hpp"
 #include "tools/render/output_path.hpp"
 
 namespace ghtrack::render {
@@ -14,32 +12,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kLevelsUp = 5;  // from a program deep in the build tree to its root
-
-/// Looks for lib/ghtrack/ghtrack_render.so in the folders above the running program.
-fs::path find_module() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw OutputError("cannot draw: /proc/self/exe: " + error.message());
-  const fs::path relative = fs::path("lib") / "ghtrack" / "ghtrack_render.so";
-  fs::path folder = program.parent_path();
-  for (int level = 0; level < kLevelsUp && folder.has_relative_path(); ++level) {
-    folder = folder.parent_path();
-    if (fs::exists(folder / relative, error)) return folder / relative;
-  }
-  throw OutputError("cannot draw: the module " + relative.string() + " is missing beside " +
-                    program.parent_path().string() +
-                    "; it belongs to the program: build or install it completely");
-}
-
 RenderModule& load_module() {
-  const fs::path path = find_module();
-  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw OutputError(std::string("cannot draw: ") + dlerror());
-  const auto factory = reinterpret_cast<RenderModuleFactory>(dlsym(library, kRenderModuleFactory));
-  if (factory == nullptr)
-    throw OutputError("cannot draw: " + path.string() + " is not the module of this program");
-  return *factory();
+  try {
+    const auto factory = reinterpret_cast<RenderModuleFactory>(
+        module_symbol("ghtrack_render", kRenderModuleFactory));
+    return *factory();
+  } catch (const ModuleError& error) {
+    throw OutputError(std::string("cannot draw: ") + error.what());
+  }
 }
 
 }  // namespace
