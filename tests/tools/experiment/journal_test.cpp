@@ -1,0 +1,107 @@
+#include "tools/experiment/journal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "tests/tools/experiment/sample_campaign.hpp"
+#include "tests/tools/record/scratch_folder.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::campaign_of_scene;
+using testing::steady_scene;
+
+const std::vector<double> kScores = {1.5, -0.25, 1e300, std::numeric_limits<double>::quiet_NaN()};
+
+// Property: what was written is read back, and the file gets its name when it is complete.
+TEST(Journal, KeepsWhatItIsGiven) {
+  const ScratchFolder scratch;
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  Journal journal(scratch.path(), {1, 4}, campaign, false);
+  journal.add(0, 2, kScores);
+  EXPECT_TRUE(fs::exists(scratch.path() / "shard-1-of-4.runs.partial"));
+  EXPECT_TRUE(journals_in(scratch.path(), false).empty());
+  journal.complete();
+  ASSERT_EQ(journals_in(scratch.path(), false).size(), 1U);
+
+  Results results(campaign);
+  const fs::path file = journal_path(scratch.path(), {1, 4});
+  read_journal(file, campaign, results);
+  EXPECT_EQ(results.missing(), 2);
+  EXPECT_THAT(results.at(0, 2), ::testing::Pointwise(::testing::NanSensitiveDoubleEq(), kScores));
+  EXPECT_EQ(write_campaign(campaign_of(file)), write_campaign(campaign));
+}
+
+// Property: wherever a file is cut, the runs before the cut are kept and it can be gone on with.
+TEST(Journal, SurvivesACutAtEveryByte) {
+  const ScratchFolder scratch;
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  const fs::path partial = scratch.path() / "shard-0-of-1.runs.partial";
+  std::uintmax_t header = 0;
+  std::uintmax_t whole = 0;
+  {
+    Journal journal(scratch.path(), {}, campaign, false);
+    header = fs::file_size(partial);
+    journal.add(0, 0, kScores);
+    journal.add(0, 1, kScores);
+    whole = fs::file_size(partial);
+  }
+  const std::uintmax_t record = (whole - header) / 2;
+  for (std::uintmax_t size = header; size < whole; ++size) {
+    fs::resize_file(partial, size);
+    Results results(campaign);
+    read_journal(partial, campaign, results);
+    EXPECT_EQ(results.has(0, 0), size >= header + record);
+    EXPECT_FALSE(results.has(0, 1));
+    {
+      Journal journal(scratch.path(), {}, campaign, true);
+      if (!results.has(0, 0)) journal.add(0, 0, kScores);
+      journal.add(0, 1, kScores);
+    }
+    EXPECT_EQ(fs::file_size(partial), whole);
+  }
+}
+
+// Property: a flipped bit spoils its run and what follows, nothing before.
+TEST(Journal, NoticesDamage) {
+  const ScratchFolder scratch;
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  {
+    Journal journal(scratch.path(), {}, campaign, false);
+    journal.add(0, 0, kScores);
+    journal.add(0, 1, kScores);
+    journal.complete();
+  }
+  const fs::path file = journal_path(scratch.path(), {});
+  std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(-20, std::ios::end);
+  bytes.put('\x7f');
+  bytes.close();
+  Results results(campaign);
+  read_journal(file, campaign, results);
+  EXPECT_TRUE(results.has(0, 0));
+  EXPECT_FALSE(results.has(0, 1));
+}
+
+// Property: runs of another campaign are never mixed in.
+TEST(Journal, RefusesAnotherCampaign) {
+  const ScratchFolder scratch;
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  const Campaign other = campaign_of_scene(steady_scene("{runs: 4}"));
+  Journal(scratch.path(), {}, campaign, false).complete();
+  Results results(other);
+  EXPECT_THROW(read_journal(journal_path(scratch.path(), {}), other, results), InputError);
+  std::ofstream(scratch.path() / "odd.runs") << "not a journal";
+  EXPECT_THROW(campaign_of(scratch.path() / "odd.runs"), InputError);
+  EXPECT_THROW(Journal(scratch.path() / "nowhere", {}, campaign, false), WriteError);
+}
+
+}  // namespace
+}  // namespace ghtrack
