@@ -42,12 +42,11 @@ struct TrackEstimate {
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of the prior's residual [m²]
 
   // What the filter's closed forms say of its error: the noise that remains when the target moves
-  // as the filter assumes, and the steady lag truth − estimate when it does not, which is
-  // lag_per_acceleration · a + lag_per_jerk · da/dt. A Kalman filter counts manoeuvres as noise.
+  // as the filter assumes. Where the target does not, a filter with designed gains lags behind; a
+  // Kalman filter counts manoeuvres as noise.
   Gains gains;                                            // in the steady state
   Eigen::Vector2d noise_sigma = Eigen::Vector2d::Zero();  // [m]
-  double lag_per_acceleration = 0.0;                      // [s²]
-  double lag_per_jerk = 0.0;                              // [s³]
+  bool lags = false;                                      // noise_sigma tells the noise alone
 };
 
 /// All tracks after one scan.

@@ -122,13 +122,6 @@ Track begin_track(const TrackerDesign& design, int id, const Scan& scan, std::si
   return track;
 }
 
-void add_lag(TrackEstimate& estimate, const Filter& filter) {
-  if (designed_gain_filter(filter) == nullptr) return;
-  const double lag = steady_lag(filter, 1.0).x;
-  if (estimate.gains.order == 1) estimate.lag_per_acceleration = lag;
-  if (estimate.gains.order == 2) estimate.lag_per_jerk = lag;
-}
-
 /// The filter of detections that nobody has classified.
 FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) {
   if (filters.empty()) return {};
@@ -257,8 +250,8 @@ TrackSnapshot snapshot(const TrackerState& state) {
          .covariance = innovation_covariance(track.filter, Eigen::Matrix2d::Zero()),
          .innovation_covariance = track.innovation_covariance,
          .gains = steady_gains(track.filter),
-         .noise_sigma = noise_sigma(track.filter)});
-    add_lag(result.tracks.back(), track.filter);
+         .noise_sigma = noise_sigma(track.filter),
+         .lags = designed_gain_filter(track.filter) != nullptr});
   }
   return result;
 }

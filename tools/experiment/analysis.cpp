@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "tools/experiment/guided.hpp"
@@ -88,23 +87,6 @@ struct TheorySum {
     return theory;
   }
 };
-
-/// Variance and squared lag per axis pair, from what the closed forms say for a unit derivative.
-struct SteadyError {
-  double variance_factor = 0.0;  // of σ², per axis
-  double lag = 0.0;              // under a unit next derivative
-};
-
-template <class Choose>
-std::optional<double> steady_mean_square(const Gains& gains, const RunMetricsOptions& sensor,
-                                         const SubjectTheory& theory, const Choose& choose) {
-  if (gains.order < 1 || !is_stable(gains)) return std::nullopt;
-  const VarianceReduction variance = variance_reduction(gains, sensor.period);
-  const Lag lag = steady_lag(gains, sensor.period, 1.0);
-  const SteadyError error = choose(variance, lag);
-  const double square = gains.order == 1 ? theory.square_acceleration : theory.square_jerk;
-  return 2.0 * sensor.sigma * sensor.sigma * error.variance_factor + error.lag * error.lag * square;
-}
 
 /// Every n-th element, so that at most `most` are left, and always the last one.
 template <class Item>
@@ -258,28 +240,6 @@ std::vector<SubjectTheory> theory_of(const Trial& trial) {
     theory.push_back(sum.theory());
   }
   return theory;
-}
-
-std::optional<double> predicted_velocity_rmse(const Gains& gains, const RunMetricsOptions& sensor,
-                                              const SubjectTheory& theory) {
-  const auto square = steady_mean_square(gains, sensor, theory,
-                                         [](const VarianceReduction& variance, const Lag& lag) {
-                                           return SteadyError{variance.dx, lag.dx};
-                                         });
-  if (!square) return std::nullopt;
-  return std::sqrt(*square);
-}
-
-// The length of a residual with two independent, equal normal components is on average √(π/4) of
-// its root mean square (Rayleigh).
-std::optional<double> predicted_mai(const Gains& gains, const RunMetricsOptions& sensor,
-                                    const SubjectTheory& theory) {
-  const auto square = steady_mean_square(
-      gains, sensor, theory, [](const VarianceReduction& variance, const Lag& lag) {
-        return SteadyError{1.0 + variance.prediction, lag.prediction};
-      });
-  if (!square) return std::nullopt;
-  return std::sqrt(0.25 * std::numbers::pi * *square);
 }
 
 std::vector<GainSurface> gain_surfaces(const Trial& trial) {

@@ -23,13 +23,6 @@ struct SubjectTheory {
 /// afterwards. For motion that is linear and Gaussian it is the steady Kalman filter's error.
 std::vector<SubjectTheory> theory_of(const Trial& trial);
 
-/// The RMSE of velocity and the mean absolute innovation that gains have in the steady state under
-/// these accelerations; absent for unstable gains.
-std::optional<double> predicted_velocity_rmse(const Gains& gains, const RunMetricsOptions& sensor,
-                                              const SubjectTheory& theory);
-std::optional<double> predicted_mai(const Gains& gains, const RunMetricsOptions& sensor,
-                                    const SubjectTheory& theory);
-
 /// The expected RMSE of position over a grid of g and h, for each regime, on run 0.
 std::vector<GainSurface> gain_surfaces(const Trial& trial);
 

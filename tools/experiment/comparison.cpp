@@ -89,7 +89,9 @@ class CellReduction {
       row.mean = mean.mean;
       row.ci95 = mean.ci95;
       row.runs = mean.values;
-      row.predicted = predicted(contender, subject, metric, theory);
+      const SampleMean predicted = mean_of(
+          values_.at(layout_.predicted(contender, subject, metric)), info(metric).averaging);
+      if (predicted.values > 0) row.predicted = predicted.mean;
       if (metric == Metric::kRmsePosition) row.bound = theory.bound_position;
       if (metric == Metric::kRmseVelocity) row.bound = theory.bound_velocity;
       values.push_back(std::move(of_runs));
@@ -150,33 +152,6 @@ class CellReduction {
     const Filter& filter = trial_.design(contender).filter_for(regime, 0);
     if (std::holds_alternative<MultipleModelFilter>(filter)) return "multiple-model";
     return std::string(name(filter)) + " " + gains_text(filter);
-  }
-
-  std::optional<double> predicted(std::size_t contender, std::size_t subject, Metric metric,
-                                  const SubjectTheory& theory) const {
-    const auto mean_at = [&](std::size_t place, const Averaging& averaging) {
-      const SampleMean mean = mean_of(values_.at(place), averaging);
-      return mean.values > 0 ? std::optional(mean.mean) : std::nullopt;
-    };
-    const std::string& regime = trial_.subjects()[subject].regime;
-    const Filter& filter = trial_.design(contender).filter_for(regime, 0);
-    const bool one_filter = !regime.empty() && !std::holds_alternative<MultipleModelFilter>(filter);
-    switch (metric) {
-      case Metric::kRmsePosition:
-        return mean_at(layout_.predicted_rmse(contender, subject), info(metric).averaging);
-      case Metric::kLag:
-        return mean_at(layout_.predicted_lag(contender, subject), info(metric).averaging);
-      case Metric::kNis:
-        return 2.0;
-      case Metric::kRmseVelocity:
-        if (!one_filter) return std::nullopt;
-        return predicted_velocity_rmse(steady_gains(filter), trial_.scoring(), theory);
-      case Metric::kMai:
-        if (!one_filter) return std::nullopt;
-        return predicted_mai(steady_gains(filter), trial_.scoring(), theory);
-      default:
-        return std::nullopt;
-    }
   }
 
   ErrorCurve curve(std::size_t contender, std::size_t regime) const {

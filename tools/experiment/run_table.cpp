@@ -1,5 +1,6 @@
 #include "tools/experiment/run_table.hpp"
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -7,6 +8,9 @@
 
 namespace ghtrack {
 namespace {
+
+constexpr std::array kPredicted = {Metric::kRmsePosition, Metric::kRmseVelocity, Metric::kLag,
+                                   Metric::kMai};
 
 std::optional<double> known(double value) {
   if (std::isnan(value)) return std::nullopt;
@@ -21,7 +25,11 @@ std::string run_table_header() {
     header += ',';
     header += info(metric).name;
   }
-  return header + ",predicted_rmse_position,predicted_lag\n";
+  for (const Metric metric : kPredicted) {
+    header += ",predicted_";
+    header += info(metric).name;
+  }
+  return header + '\n';
 }
 
 std::string run_table_rows(const CampaignCell& cell, const Trial& trial, int run,
@@ -36,8 +44,9 @@ std::string run_table_rows(const CampaignCell& cell, const Trial& trial, int run
       for (const Metric metric : all_metrics()) {
         row << known(scores.at(layout.value(contender, i, metric)));
       }
-      row << known(scores.at(layout.predicted_rmse(contender, i)))
-          << known(scores.at(layout.predicted_lag(contender, i)));
+      for (const Metric metric : kPredicted) {
+        row << known(scores.at(layout.predicted(contender, i, metric)));
+      }
       row.end();
     }
   }

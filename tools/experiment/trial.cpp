@@ -118,7 +118,8 @@ class Attempt {
                      std::vector<double>& scores) const {
     const TrialLayout layout = trial_.layout();
     const Subject& subject = trial_.subjects()[index];
-    WeightedMean position, velocity, predicted, lag, predicted_lag, mai, nis, settling, tracked;
+    WeightedMean position, velocity, lag, mai, nis, settling, tracked;
+    WeightedMean predicted_position, predicted_velocity, predicted_lag, predicted_mai;
     double peak = kNothing;
     double losses = 0.0;
     for (const ObjectId id : subject.objects) {
@@ -126,11 +127,13 @@ class Attempt {
       const auto scans = static_cast<double>(object.tracked);
       position.add(square(object.rmse_position), scans);
       velocity.add(square(object.rmse_velocity), scans);
-      predicted.add(square(object.predicted_rmse), scans);
+      predicted_position.add(square(object.predicted_rmse), scans);
+      predicted_velocity.add(square(object.predicted_velocity), scans);
       lag.add(object.lag, scans);
       predicted_lag.add(object.predicted_lag, scans);
       const auto updates = static_cast<double>(object.detections_used);
       mai.add(object.mai, updates);
+      predicted_mai.add(object.predicted_mai, updates);
       nis.add(object.nis, updates);
       settling.add(object.settling_time);
       peak = std::fmax(peak, object.peak_error.value_or(kNothing));
@@ -155,8 +158,14 @@ class Attempt {
     set(Metric::kGospa, whole_scene ? report.total.gospa : kNothing);
     set(Metric::kIdSwitches,
         whole_scene ? static_cast<double>(report.total.mot.clear.id_switches) : kNothing);
-    scores[layout.predicted_rmse(contender_, index)] = predicted.root();
-    scores[layout.predicted_lag(contender_, index)] = predicted_lag.mean();
+    const auto predict = [&](Metric metric, double value) {
+      scores[layout.predicted(contender_, index, metric)] = value;
+    };
+    predict(Metric::kRmsePosition, predicted_position.root());
+    predict(Metric::kRmseVelocity, predicted_velocity.root());
+    predict(Metric::kLag, predicted_lag.mean());
+    predict(Metric::kMai, predicted_mai.mean());
+    predict(Metric::kNis, 2.0);
   }
 
   const Trial& trial_;

@@ -37,12 +37,9 @@ class TrialLayout {
   std::size_t value(std::size_t contender, std::size_t subject, Metric metric) const {
     return contender * per_contender() + subject * kPerSubject + static_cast<std::size_t>(metric);
   }
-  /// The closed forms' RMSE of position, and their lag.
-  std::size_t predicted_rmse(std::size_t contender, std::size_t subject) const {
-    return contender * per_contender() + subject * kPerSubject + kMetrics;
-  }
-  std::size_t predicted_lag(std::size_t contender, std::size_t subject) const {
-    return predicted_rmse(contender, subject) + 1;
+  /// What the closed forms say of it; NaN for metrics that they do not cover.
+  std::size_t predicted(std::size_t contender, std::size_t subject, Metric metric) const {
+    return value(contender, subject, metric) + kMetrics;
   }
   /// Mean squared error of a regime's objects in a bin of time [m²].
   std::size_t curve(std::size_t contender, std::size_t regime, std::size_t bin) const {
@@ -50,7 +47,7 @@ class TrialLayout {
   }
 
  private:
-  static constexpr std::size_t kPerSubject = kMetrics + 2;
+  static constexpr std::size_t kPerSubject = 2 * kMetrics;
   std::size_t per_contender() const { return subjects_ * kPerSubject + regimes_ * kBins; }
 
   std::size_t contenders_;

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "tracker/filters/gain_filter.hpp"
+#include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {
 namespace {
@@ -96,8 +98,6 @@ void RunMetrics::add_tracks(const StepRecord& record) {
       if (tally.calm_scans < kCalmScans) tally.calm_scans = 0;
     }
     tally.followed = chosen[object].has_value();
-    tally.before = truth;
-    tally.before_time = record.truth.time;
   }
 }
 
@@ -162,11 +162,13 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
 
 void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& track, double time) {
   ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
-  if (tally.track && tally.track != track.id) {
+  const bool is_new = tally.track != track.id;
+  if (tally.track && is_new) {
     ++tally.track_changes;
     if (tally.followed) ++tally.track_losses;
   }
   tally.track = track.id;
+  if (is_new || !tally.followed) tally.expected_lag.start(truth, time);
 
   const Vec2 error = track.position - truth.position;
   latest_errors_[static_cast<std::size_t>(truth.id)] = error;
@@ -176,16 +178,11 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   tally.error += error;
   tally.squared_velocity_error += (track.velocity - truth.velocity).squaredNorm();
 
-  Vec2 jerk = Vec2::Zero();
-  if (tally.before && time > tally.before_time) {
-    jerk = (truth.acceleration - tally.before->acceleration) / (time - tally.before_time);
-  }
-  const Vec2 lag = track.lag_per_acceleration * truth.acceleration + track.lag_per_jerk * jerk;
-  tally.predicted_square += track.noise_sigma.squaredNorm() + lag.squaredNorm();
+  tally.predicted_square += track.noise_sigma.squaredNorm();
   if (const double speed = truth.velocity.norm(); speed > 0.0) {
     tally.lag -= error.dot(truth.velocity) / speed;
-    tally.predicted_lag += lag.dot(truth.velocity) / speed;
   }
+  if (track.lags) add_expected_lag(tally, truth, track, time);
   if (const auto squares = floor_ ? floor_->squared_errors(truth.id) : std::nullopt) {
     for (std::size_t i = 0; i < squares->size(); ++i) tally.floor_square[i] += (*squares)[i];
     ++tally.floor_count;
@@ -204,12 +201,24 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   }
 
   const auto usage = std::find_if(tally.usage.begin(), tally.usage.end(), [&](const Usage& u) {
-    return u.filter == track.filter && u.gains == track.gains;
+    return u.filter == track.filter && u.gains == track.gains && u.lags == track.lags;
   });
   if (usage == tally.usage.end()) {
-    tally.usage.push_back({track.filter, track.gains, 1});
+    tally.usage.push_back({track.filter, track.gains, track.lags, 1});
   } else {
     ++usage->scans;
+  }
+}
+
+void RunMetrics::add_expected_lag(ObjectTally& tally, const TruthState& truth,
+                                  const TrackEstimate& track, double time) const {
+  const ExpectedLag::Value lag =
+      tally.expected_lag.advance(truth, time, track.gains, track.residual.has_value());
+  tally.predicted_square += lag.position.squaredNorm();
+  tally.squared_velocity_lag += lag.velocity.squaredNorm();
+  tally.squared_prediction_lag += lag.prediction.squaredNorm();
+  if (const double speed = truth.velocity.norm(); speed > 0.0) {
+    tally.predicted_lag += lag.position.dot(truth.velocity) / speed;
   }
 }
 
@@ -221,6 +230,21 @@ void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) c
   }
   if (tally.calm_scans == 0) tally.calm_since = time;
   ++tally.calm_scans;
+}
+
+/// The steady variance reduction of the leading gains, and the expected lag. The length of a
+/// residual with two independent, equal normal components is on average √(π/4) of its root mean
+/// square (Rayleigh).
+void RunMetrics::predict_by_gains(const ObjectTally& tally, const Usage& leading,
+                                  ObjectReport& report) const {
+  if (!leading.lags || leading.gains.order < 1 || !is_stable(leading.gains)) return;
+  const VarianceReduction reduction = variance_reduction(leading.gains, options_.period);
+  const double noise = 2.0 * options_.sigma * options_.sigma;  // of both axes
+  const auto scans = static_cast<double>(report.tracked);
+  report.predicted_velocity = std::sqrt(noise * reduction.dx + tally.squared_velocity_lag / scans);
+  report.predicted_mai =
+      std::sqrt(0.25 * std::numbers::pi *
+                (noise * (1.0 + reduction.prediction) + tally.squared_prediction_lag / scans));
 }
 
 ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& tally) const {
@@ -256,6 +280,7 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
       *std::min_element(tally.floor_square.begin(), tally.floor_square.end()), tally.floor_count);
   report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);
   report.bias = tally.error / static_cast<double>(report.tracked);
+  predict_by_gains(tally, *leading, report);
   report.peak_error = tally.peak_error;
   report.lag = tally.lag / static_cast<double>(report.tracked);
   report.predicted_lag = tally.predicted_lag / static_cast<double>(report.tracked);

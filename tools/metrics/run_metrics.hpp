@@ -10,6 +10,7 @@
 
 #include "tools/metrics/batch_means.hpp"
 #include "tools/metrics/error_floor.hpp"
+#include "tools/metrics/expected_lag.hpp"
 #include "tools/metrics/gospa.hpp"
 #include "tools/metrics/mot_score.hpp"
 #include "tools/metrics/switches.hpp"
@@ -56,13 +57,15 @@ struct ObjectReport {
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
   std::optional<double> floor_rmse;            // of the best of FloorFilters in the same scans [m]
   std::optional<double> rmse_velocity;         // [m/s]
+  std::optional<double> predicted_velocity;    // its prediction, by the leading gains [m/s]
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
   std::optional<double> peak_error;            // max |e| [m]
   std::optional<double> lag;                   // mean of −e along the velocity [m]
-  std::optional<double> predicted_lag;         // the same of the predicted lag [m]
+  std::optional<double> predicted_lag;         // the same of the expected lag [m]
   std::optional<double> settling_time;         // see RunMetrics::kCalmScans [s]
   std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
+  std::optional<double> predicted_mai;         // its prediction, by the leading gains [m]
   std::optional<double> nees;                  // mean of eᵀ P⁻¹ e; 2 if consistent
   std::optional<Interval> nees_bounds95;
   std::optional<double> nis;  // mean of rᵀ S⁻¹ r; 2 if consistent
@@ -118,6 +121,7 @@ class RunMetrics {
   struct Usage {
     std::string filter;
     Gains gains;
+    bool lags = false;
     std::int64_t scans = 0;
   };
 
@@ -135,6 +139,9 @@ class RunMetrics {
     double peak_error = 0.0;
     double lag = 0.0;
     double predicted_lag = 0.0;
+    ExpectedLag expected_lag;
+    double squared_velocity_lag = 0.0;
+    double squared_prediction_lag = 0.0;
     double first_time = 0.0;  // of its scans
     double calm_since = 0.0;
     int calm_scans = 0;
@@ -148,8 +155,6 @@ class RunMetrics {
     BatchMeans nees;
     double nis = 0.0;
     std::int64_t nis_count = 0;
-    std::optional<TruthState> before;  // at the latest scan
-    double before_time = 0.0;
     std::vector<Usage> usage;
   };
 
@@ -160,7 +165,10 @@ class RunMetrics {
   void update_following(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
   void score_object(const TruthState& truth, const TrackEstimate& track, double time);
+  void add_expected_lag(ObjectTally& tally, const TruthState& truth, const TrackEstimate& track,
+                        double time) const;
   void watch_settling(ObjectTally& tally, double error, double time) const;
+  void predict_by_gains(const ObjectTally& tally, const Usage& leading, ObjectReport& report) const;
   ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
 
   std::vector<ObjectInfo> objects_;

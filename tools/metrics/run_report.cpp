@@ -39,6 +39,7 @@ Json object_json(const ObjectReport& object) {
   json["predicted_rmse"] = number(object.predicted_rmse);
   json["floor_rmse"] = number(object.floor_rmse);
   json["rmse_velocity"] = number(object.rmse_velocity);
+  json["predicted_velocity"] = number(object.predicted_velocity);
   json["measurement_rmse"] = number(object.measurement_rmse);
   json["bias"] = object.bias ? Json::array({number(object.bias->x()), number(object.bias->y())})
                              : Json(nullptr);
@@ -47,6 +48,7 @@ Json object_json(const ObjectReport& object) {
   json["predicted_lag"] = number(object.predicted_lag);
   json["settling_time"] = number(object.settling_time);
   json["mai"] = number(object.mai);
+  json["predicted_mai"] = number(object.predicted_mai);
   json["nees"] = number(object.nees);
   json["nees_bounds95"] = interval(object.nees_bounds95);
   json["nis"] = number(object.nis);

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <random>
 #include <sstream>
 
 #include "tools/metrics/text_table.hpp"
+#include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {
 namespace {
@@ -93,23 +95,75 @@ TEST(RunMetrics, MeasuresErrorsPerObject) {
   EXPECT_EQ(report.options.matching(), 5.0);
 }
 
-// Derived: the lag of the closed forms joins the variance: √(σx² + σy² + |lag|²).
+/// One object under the acceleration (0, 2) m/s² at the time t, followed exactly by a g-h filter
+/// with g = 0.5, h = 0.2 at T = 0.5 s.
+StepRecord accelerating(double t) {
+  StepRecord record = one_object(t);
+  record.truth.objects[0].position = {t, t * t};
+  record.truth.objects[0].velocity = {1.0, 2.0 * t};
+  record.truth.objects[0].acceleration = {0.0, 2.0};
+  TrackEstimate estimate = track(1, record.truth.objects[0].position);
+  estimate.noise_sigma = {0.3, 0.0};
+  estimate.gains = Gains::of_gh(0.5, 0.2);
+  estimate.lags = true;
+  estimate.detection = 0;
+  estimate.residual = Vec2(0.1, 0.0);
+  record.tracks.tracks = {estimate};
+  return record;
+}
+
+// Derived: the steady lag (1 − g) a T² / h = 1.25 m joins the variance: √(0.3² + 1.25²). The
+// start-up without lag, some ten of 2000 scans, makes the mean a little less. Steady lags of
+// velocity and prediction: a T (2g − h) / 2h = 2 m/s, a T² / h = 2.5 m.
 TEST(RunMetrics, AddsTheLagToThePrediction) {
-  RunMetrics metrics({object(0, "ball")}, {});
-  for (int i = 0; i < 50; ++i) {
-    StepRecord record = one_object(0.5 * i);
-    record.truth.objects[0].acceleration = {0.0, 2.0};
-    TrackEstimate estimate = track(1, {0.0, 0.0});
-    estimate.noise_sigma = {0.3, 0.0};
-    estimate.gains = Gains::of_gh(0.1, 0.01);
-    estimate.lag_per_acceleration = 0.2;
+  RunMetrics metrics({object(0, "ball")}, {.sigma = 0.1, .period = 0.5});
+  for (int i = 0; i < 2000; ++i) add(metrics, accelerating(0.5 * i));
+  const ObjectReport ball = metrics.report().objects[0];
+  EXPECT_NEAR(*ball.predicted_rmse, std::hypot(0.3, 1.25), 0.01);
+  EXPECT_EQ(ball.gains, "g=0.5 h=0.2");
+  EXPECT_NEAR(*ball.predicted_lag, 1.25, 0.01);
+  const VarianceReduction noise = variance_reduction(Gains::of_gh(0.5, 0.2), 0.5);
+  EXPECT_NEAR(*ball.predicted_velocity, std::sqrt(0.02 * noise.dx + 4.0), 0.01);
+  EXPECT_NEAR(*ball.predicted_mai,
+              std::sqrt(0.25 * std::numbers::pi * (0.02 * (1.0 + noise.prediction) + 6.25)), 0.01);
+}
+
+// Derived: an acceleration that changes its sign at every scan leaves no time for a lag to grow: a
+// fiftieth of the steady one's.
+TEST(RunMetrics, CountsOnlyTheLagThatHasTimeToDevelop) {
+  RunMetrics metrics({object(0, "ball")}, {.sigma = 0.1, .period = 0.5});
+  Vec2 position = Vec2::Zero();
+  Vec2 velocity = Vec2::Zero();
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 acceleration(0.0, i % 2 == 0 ? 2.0 : -2.0);
+    StepRecord record = accelerating(0.5 * i);
+    record.truth.objects[0].position = position;
+    record.truth.objects[0].velocity = velocity;
+    record.truth.objects[0].acceleration = acceleration;
+    add(metrics, record);
+    position += 0.5 * velocity + 0.125 * acceleration;
+    velocity += 0.5 * acceleration;
+  }
+  EXPECT_LT(*metrics.report().objects[0].predicted_rmse, std::hypot(0.3, 0.2));
+}
+
+// Property: the largest error, its part along the motion, and the scan from which ten in a row are
+// small are found; a track that ends is a loss.
+TEST(RunMetrics, FindsPeakLagSettlingAndLosses) {
+  RunMetrics metrics({object(0, "ball")}, {.sigma = 0.5, .period = 0.1});
+  for (int i = 0; i < 40; ++i) {
+    StepRecord record = one_object(0.1 * i);
+    TrackEstimate estimate = track(1, {-0.2, i < 5 ? 3.0 : 0.1});
     estimate.detection = 0;
-    record.tracks.tracks = {estimate};
+    if (i != 30) record.tracks.tracks = {estimate};
     add(metrics, record);
   }
-  const RunReport report = metrics.report();
-  EXPECT_NEAR(*report.objects[0].predicted_rmse, 0.5, 1e-12);
-  EXPECT_EQ(report.objects[0].gains, "g=0.1 h=0.01");
+  const ObjectReport ball = metrics.report().objects[0];
+  EXPECT_NEAR(*ball.peak_error, std::hypot(0.2, 3.0), 1e-12);
+  EXPECT_NEAR(*ball.lag, 0.2, 1e-12);
+  EXPECT_NEAR(*ball.settling_time, 0.5, 1e-12);
+  EXPECT_EQ(ball.track_losses, 1);
+  EXPECT_EQ(ball.track_changes, 0);
 }
 
 // Derived: three of ten scans without a used detection; tentative tracks are no output.

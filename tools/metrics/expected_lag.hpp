@@ -1,0 +1,32 @@
+#pragma once
+
+#include "sim/truth.hpp"
+#include "tracker/filters/kinematics.hpp"
+
+namespace ghtrack {
+
+/// The error that a filter with given gains would have without measurement noise: its recurrence
+/// on the truth itself. It is what remains of the error on average over the noise. Under a lasting
+/// acceleration it tends to the steady lag (1 − g) a T² / h; under one that changes it says how
+/// much of that lag has time to develop.
+class ExpectedLag {
+ public:
+  /// All as truth − estimate.
+  struct Value {
+    Vec2 position = Vec2::Zero();    // [m]
+    Vec2 velocity = Vec2::Zero();    // [m/s]
+    Vec2 prediction = Vec2::Zero();  // of the predicted position [m]
+  };
+
+  /// From here on, without lag at first.
+  void start(const TruthState& truth, double time);
+
+  /// The lag at the next scan. @param measured  whether the filter used a measurement
+  Value advance(const TruthState& truth, double time, const Gains& gains, bool measured);
+
+ private:
+  Kinematics<2> estimate_;
+  double time_ = 0.0;  // [s]
+};
+
+}  // namespace ghtrack
