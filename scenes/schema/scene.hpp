@@ -74,6 +74,11 @@ struct WorldScene {
     if (!video) return;
     if (video->from >= duration) report("video.from", "must be before the end of the run");
     if (video->follow) check_target("video.follow", *video->follow);
+    if (video->close_up) check_target("video.close_up.target", video->close_up->target);
+    for (std::size_t i = 0; i < video->shots.size(); ++i) {
+      const VideoShot& shot = video->shots[i];
+      if (shot.target) check_target("video.shots[" + std::to_string(i) + "].target", *shot.target);
+    }
   }
 
   /// Is there a target of that name, once copies are spelled out and everyone is named?

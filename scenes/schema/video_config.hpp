@@ -6,10 +6,66 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/schema/video_corner.hpp"
 #include "scenes/schema/video_layer.hpp"
 #include "sim/truth.hpp"
 
 namespace ghtrack {
+
+/// Where the camera looks from some time on.
+struct VideoShot {
+  static constexpr std::string_view about =
+      "where the camera looks from some time on: at a target, at a place, or at the whole region";
+
+  double at = 0.0;                    // scene time [s]
+  std::optional<std::string> target;  // stays in the middle
+  std::optional<Vec2> center;         // [m]
+  double width = 40.0;                // of the world across the picture [m]
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("at", &VideoShot::at,
+            {.unit = "s", .meaning = "scene time at which it begins", .minimum = 0.0});
+    v.field("target", &VideoShot::target,
+            {.meaning = "name of the target that stays in the middle of the picture"});
+    v.field("center", &VideoShot::center,
+            {.unit = "m",
+             .meaning = "the middle of the picture; without it and without a target the camera "
+                        "shows the whole region",
+             .minimum = -1e7,
+             .maximum = 1e7});
+    v.field("width", &VideoShot::width,
+            {.unit = "m",
+             .meaning = "width of the picture in the world",
+             .minimum = 0.1,
+             .maximum = 1e5});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (target && center) report("center", "a shot has a target or a center, not both");
+  }
+};
+
+/// A picture in the picture.
+struct VideoCloseUp {
+  static constexpr std::string_view about = "one target from near by, in a corner of the picture";
+
+  std::string target;
+  double width = 10.0;  // of the world across the close-up [m]
+  VideoCorner corner = VideoCorner::kTopRight;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("target", &VideoCloseUp::target, {.meaning = "name of the target", .required = true});
+    v.field("width", &VideoCloseUp::width,
+            {.unit = "m",
+             .meaning = "width of the close-up in the world",
+             .minimum = 0.1,
+             .maximum = 1e5});
+    v.field("corner", &VideoCloseUp::corner, {.meaning = "where it lies"});
+  }
+};
 
 /// The annotated video of a run.
 struct VideoConfig {
@@ -24,6 +80,9 @@ struct VideoConfig {
   std::vector<Vec2> region;  // lower left and upper right corner; empty: all that happens [m]
   std::optional<std::string> follow;  // the target that stays in the middle of the picture
   double follow_width = 40.0;         // of the world across the picture when following [m]
+  std::vector<VideoShot> shots;       // in the order of time
+  double glide = 1.5;                 // scene time that the camera takes from shot to shot [s]
+  std::optional<VideoCloseUp> close_up;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -53,12 +112,22 @@ struct VideoConfig {
              .maximum = 1e7,
              .max_items = 2});
     v.field("follow", &VideoConfig::follow,
-            {.meaning = "name of the target that stays in the middle of the picture"});
+            {.meaning = "name of the target that stays in the middle of the picture all the time"});
     v.field("follow_width", &VideoConfig::follow_width,
             {.unit = "m",
              .meaning = "width of the picture in the world when following a target",
-             .above = 0.0,
+             .minimum = 0.1,
+             .maximum = 1e5});
+    v.field("shots", &VideoConfig::shots,
+            {.meaning = "where the camera looks, in the order of time; before the first it shows "
+                        "the whole region",
+             .max_items = 1000});
+    v.field("glide", &VideoConfig::glide,
+            {.unit = "s",
+             .meaning = "scene time that the camera takes from one shot to the next",
+             .minimum = 0.0,
              .maximum = 1e6});
+    v.field("close_up", &VideoConfig::close_up, {.meaning = "a picture in the picture"});
   }
 
   template <class Report>
@@ -70,6 +139,11 @@ struct VideoConfig {
     if (region.size() == 1) report("region", "needs two corners: [[left, bottom], [right, top]]");
     if (corners && !(region[0].array() < region[1].array()).all()) {
       report("region", "the first corner must lie left of and below the second");
+    }
+    if (follow && !shots.empty()) report("follow", "says where the camera looks, as 'shots' does");
+    for (std::size_t i = 1; i < shots.size(); ++i) {
+      if (shots[i].at > shots[i - 1].at) continue;
+      report("shots[" + std::to_string(i) + "].at", "must be later than the shot before");
     }
   }
 };

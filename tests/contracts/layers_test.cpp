@@ -30,7 +30,13 @@ const std::map<std::string, Folders> kAllowed = {
     {"tools/ranks", {"tools/modules"}},
     {"tools/render",
      {"tools/record", "tools/modules", "sim/truth.hpp", "sim/surface.hpp", "sensors", "tracker",
-      "scenes/schema/video_layer.hpp"}},
+      "scenes/schema/video_corner.hpp", "scenes/schema/video_layer.hpp"}},
+    {"tools/film",
+     {"tools/pipeline", "tools/metrics", "tools/record", "tools/render", "scenes", "sim", "sensors",
+      "tracker"}},
+    {"tools/view",
+     {"tools/film", "tools/pipeline", "tools/record", "tools/render", "scenes", "sim", "sensors",
+      "tracker"}},
     {"tools/experiment",
      {"tools/pipeline", "tools/metrics", "tools/record", "scenes", "sim", "sensors", "tracker"}},
     {"tools/html", {}},
@@ -45,7 +51,7 @@ const std::map<std::string, Folders> kAllowed = {
 /// The only folders or files that may include a library's headers.
 const std::map<std::string, Folders> kOwners = {
     {"box2d/", {"sim/collision.cpp", "tools/bench"}},
-    {"opencv2/", {"tools/render", "tools/bench"}},
+    {"opencv2/", {"tools/render", "tools/view", "tools/bench"}},
     {"yaml-cpp/", {"scenes/schema"}},
     {"CLI/", {"tools/cli"}},
     {"kainjow/", {"tools/html/template.cpp"}},

@@ -151,8 +151,8 @@ TEST_F(Run, AddingATargetChangesNoOtherTargetsTruthOrNoise) {
   longer.insert(scene.find("targets:\n") + std::string("targets:\n").size(), added);
   write(folder() / "before.yaml", scene);
   write(folder() / "after.yaml", longer);
-  ASSERT_EQ(ghtrack("run before.yaml -o before --duration 5 --no-video").exit_code, 0);
-  const Outcome after = ghtrack("run after.yaml -o after --duration 5 --no-video");
+  ASSERT_EQ(ghtrack("run before.yaml -o before --duration 6 --no-video").exit_code, 0);
+  const Outcome after = ghtrack("run after.yaml -o after --duration 6 --no-video");
   ASSERT_EQ(after.exit_code, 0) << after.err;
 
   std::map<std::string, std::string> names;

@@ -16,6 +16,7 @@
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_frames.hpp"
+#include "tools/film/scene_drawing.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/pipeline/simulation.hpp"
 #include "tools/record/run_writer.hpp"
@@ -40,8 +41,8 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   RunMetrics metrics(world.objects(), scoring_for(traits_of(scene.sensors)));
   std::optional<VideoFrames> frames;
   if (video.value_or(scene.video.has_value())) {
-    frames.emplace(scene, world, video_options(scene, world, folder / "video.mp4"),
-                   std::vector<Contender>{}, manners.quiet);
+    frames.emplace(scene, world, film::video_options(scene, world, folder / "video.mp4"),
+                   std::vector<film::Contender>{}, manners.quiet);
   }
 
   Listener listener;

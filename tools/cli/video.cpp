@@ -16,6 +16,7 @@
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_frames.hpp"
+#include "tools/film/scene_drawing.hpp"
 #include "tools/pipeline/simulation.hpp"
 
 namespace ghtrack::cli {
@@ -64,6 +65,20 @@ render::VideoOptions changed_by(const VideoCommandOptions& options, render::Vide
   return video;
 }
 
+/// The filters that the scene names under `compare`.
+std::vector<film::Contender> contenders_of(const WorldScene& scene) {
+  constexpr std::size_t kFewest = 2;
+  constexpr std::size_t kMost = 6;
+  const std::size_t count = scene.compare.filters.size();
+  if (count < kFewest || count > kMost) {
+    throw UsageError(
+        fmt::format("video: --compare needs {} to {} filters under `compare: {{filters: …}}` of "
+                    "the scene, which has {}",
+                    kFewest, kMost, count));
+  }
+  return film::contenders_of(scene);
+}
+
 }  // namespace
 
 int video(const VideoCommandOptions& options, const Manners& manners) {
@@ -79,10 +94,10 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
     make_folder(folder);
     path = folder / "video.mp4";
   }
-  std::vector<Contender> contenders;
+  std::vector<film::Contender> contenders;
   if (options.compare) contenders = contenders_of(*scene);
   World world = make_world(*scene);
-  VideoFrames frames(*scene, world, changed_by(options, video_options(*scene, world, path)),
+  VideoFrames frames(*scene, world, changed_by(options, film::video_options(*scene, world, path)),
                      std::move(contenders), manners.quiet);
   Listener listener;
   listener.on_scan = [&](const StepRecord& record) { frames.add_scan(record); };

@@ -12,21 +12,34 @@ namespace {
 
 constexpr double kMajorSpacing = 105.0;  // [px] between lines with a number, at least
 constexpr int kMinorPerMajor = 5;
-constexpr double kLongestRail = 1e5;  // [px] of a straight piece that gets ties
+constexpr double kShortestRail = 12.0;  // [px]; a train on less is not on rails worth drawing
+constexpr double kLongestRail = 1e5;    // [px] of a straight piece that gets ties
+
+/// Metres between major lines of the grid.
+double major_step(const Stage& stage) {
+  return round_step(stage.style.length(kMajorSpacing) / stage.view.scale());
+}
+
+double length_of(const std::vector<Pixel>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    length += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+  return length;
+}
 
 class Backdrop {
  public:
-  Backdrop(Canvas& canvas, const View& view, const SceneDrawing& scene, const Style& style,
-           const Typefaces& fonts)
+  Backdrop(Canvas& canvas, const Stage& stage)
       : canvas_(canvas),
-        view_(view),
-        scene_(scene),
-        style_(style),
-        fonts_(fonts),
-        world_(view.world()),
-        step_(round_step(style.length(kMajorSpacing) / view.scale())) {}
+        stage_(stage),
+        view_(stage.view),
+        scene_(stage.scene),
+        style_(stage.style),
+        fonts_(stage.fonts),
+        world_(view_.world()),
+        step_(major_step(stage)) {}
 
-  void ground_and_boxes() {
+  void ground() {
     const std::vector<Vec2> edge = edge_of_ground();
     for (std::size_t i = 1; i < edge.size(); ++i) {
       const double depth = std::min({world_.min.y(), edge[i - 1].y(), edge[i].y()});
@@ -34,6 +47,9 @@ class Backdrop {
                        at(edge[i - 1].x(), depth)},
                       dark::kGround);
     }
+  }
+
+  void boxes() {
     for (const SolidBox& box : scene_.boxes) canvas_.polygon(outline_of(box), dark::kGround);
   }
 
@@ -52,8 +68,11 @@ class Backdrop {
     }
   }
 
-  void edges_of_solids() {
+  void edge_of_the_ground() {
     canvas_.polyline(pixels(edge_of_ground()), dark::kGroundLine, style_.length(2));
+  }
+
+  void edges_of_walls() {
     for (const SolidBox& box : scene_.boxes)
       canvas_.outline(outline_of(box), dark::kGroundLine, style_.length(2));
     for (const Wall& wall : scene_.walls)
@@ -64,6 +83,7 @@ class Backdrop {
   void rails() {
     for (const std::vector<Vec2>& rail : scene_.rails) {
       const std::vector<Pixel> points = pixels(rail);
+      if (length_of(points) < style_.length(kShortestRail)) continue;
       ties(points);
       canvas_.polyline(points, dark::kTie, style_.length(1.6));
     }
@@ -71,32 +91,34 @@ class Backdrop {
 
   void numbers() {
     const Color color = dark::kAxisText;
-    const int letters = style_.letters(12);
+    const int letters = style_.letters(13);
     const Viewport& area = view_.viewport();
     for (const double x : multiples(step_, world_.min.x(), world_.max.x())) {
       const Pixel pen{view_.to_pixel({x, 0.0}).x, area.bottom() - style_.length(6)};
       if (pen.x > area.left + style_.length(44) &&
           pen.x < area.right() - step_ * view_.scale() - style_.length(44))
-        canvas_.text(fonts_.regular, tick_label(x, step_), letters, pen, color,
-                     Canvas::Align::kCentre);
+        canvas_.rimmed_text(fonts_.regular, tick_label(x, step_), letters, pen, color, dark::kWorld,
+                            Canvas::Align::kCentre);
     }
     for (const double y : multiples(step_, world_.min.y(), world_.max.y())) {
       const Pixel pen{area.left + style_.length(6), view_.to_pixel({0.0, y}).y + 0.35 * letters};
       if (pen.y > area.top + style_.length(18) && pen.y < area.bottom() - style_.length(24))
-        canvas_.text(fonts_.regular, tick_label(y, step_), letters, pen, color);
+        canvas_.rimmed_text(fonts_.regular, tick_label(y, step_), letters, pen, color,
+                            dark::kWorld);
     }
   }
 
   void scale_bar() {
-    const Viewport& area = view_.viewport();
-    const double right = area.right() - style_.length(16);
-    const double left = right - step_ * view_.scale();
-    const double y = area.bottom() - style_.length(12);
+    const Viewport box = scale_bar_box(stage_);
+    const double edge = style_.length(6);
+    const double left = box.left + edge;
+    const double right = box.right() - edge;
+    const double y = box.bottom() - edge;
     const double tick = style_.length(5);
-    const std::u32string label = tick_label(step_, step_) + U" m";
+    canvas_.rectangle(box, {dark::kWorld, 0.7});
     canvas_.polyline({{left, y - tick}, {left, y}, {right, y}, {right, y - tick}}, dark::kMutedText,
                      style_.length(2));
-    canvas_.text(fonts_.regular, label, style_.letters(13),
+    canvas_.text(fonts_.regular, tick_label(step_, step_) + U" m", style_.letters(14),
                  {0.5 * (left + right), y - style_.length(7)}, dark::kMutedText,
                  Canvas::Align::kCentre);
   }
@@ -164,6 +186,7 @@ class Backdrop {
   }
 
   Canvas& canvas_;
+  const Stage& stage_;
   const View& view_;
   const SceneDrawing& scene_;
   const Style& style_;
@@ -174,19 +197,27 @@ class Backdrop {
 
 }  // namespace
 
-void draw_backdrop(Canvas& canvas, const View& view, const SceneDrawing& scene, Layers layers,
-                   const Style& style, const Typefaces& fonts) {
+void draw_backdrop(Canvas& canvas, const Stage& stage, AxisNumbers numbers) {
   canvas.fill(dark::kWorld);
-  Backdrop backdrop(canvas, view, scene, style, fonts);
-  if (layers.shows(Layer::kGround)) backdrop.ground_and_boxes();
-  if (layers.shows(Layer::kGrid)) backdrop.grid();
-  if (layers.shows(Layer::kFieldOfView)) backdrop.field_of_view();
-  if (layers.shows(Layer::kGround)) backdrop.edges_of_solids();
-  if (layers.shows(Layer::kRails)) backdrop.rails();
-  if (layers.shows(Layer::kGrid)) {
-    backdrop.numbers();
-    backdrop.scale_bar();
-  }
+  Backdrop backdrop(canvas, stage);
+  if (stage.shows(Layer::kGround)) backdrop.ground();
+  if (stage.shows(Layer::kWalls)) backdrop.boxes();
+  if (stage.shows(Layer::kGrid)) backdrop.grid();
+  if (stage.shows(Layer::kFieldOfView)) backdrop.field_of_view();
+  if (stage.shows(Layer::kGround)) backdrop.edge_of_the_ground();
+  if (stage.shows(Layer::kWalls)) backdrop.edges_of_walls();
+  if (stage.shows(Layer::kRails)) backdrop.rails();
+  if (!stage.shows(Layer::kGrid)) return;
+  if (numbers == AxisNumbers::kShown) backdrop.numbers();
+  backdrop.scale_bar();
+}
+
+Viewport scale_bar_box(const Stage& stage) {
+  const Viewport& area = stage.view.viewport();
+  const double margin = stage.style.length(8);
+  const double width = major_step(stage) * stage.view.scale() + stage.style.length(12);
+  const double height = stage.style.length(32);
+  return {area.right() - margin - width, area.bottom() - margin - height, width, height};
 }
 
 }  // namespace ghtrack::render

@@ -1,13 +1,17 @@
 #pragma once
 
 #include "tools/render/canvas.hpp"
-#include "tools/render/style.hpp"
+#include "tools/render/stage.hpp"
 
 namespace ghtrack::render {
 
-/// Draws what does not move: grid with metres, field of view, ground, walls, rails, scale bar.
-/// @param canvas limited to the view's viewport
-void draw_backdrop(Canvas& canvas, const View& view, const SceneDrawing& scene, Layers layers,
-                   const Style& style, const Typefaces& fonts);
+/// Does a view have numbers along its edges?
+enum class AxisNumbers { kShown, kHidden };
+
+/// Draws what does not move: grid, ground, walls, rails, fields of view, scale bar.
+void draw_backdrop(Canvas& canvas, const Stage& stage, AxisNumbers numbers);
+
+/// Where draw_backdrop() draws the scale bar with its number.
+Viewport scale_bar_box(const Stage& stage);
 
 }  // namespace ghtrack::render

@@ -241,7 +241,7 @@ void Canvas::arrow(Pixel from, Pixel to, double head, Ink ink, double thickness)
   blend(ink.color);
 }
 
-void Canvas::rectangle(const Viewport& area, Color fill) {
+void Canvas::rectangle(const Viewport& area, Ink fill) {
   if (is_finite({area.left, area.top}) && is_finite({area.right(), area.bottom()}))
     polygon({{area.left, area.top},
              {area.right(), area.top},
@@ -274,11 +274,11 @@ void Canvas::text(const Font& font, std::u32string_view text, int height, Pixel 
 }
 
 void Canvas::rimmed_text(const Font& font, std::u32string_view text, int height, Pixel pen,
-                         Color color, Color rim) {
+                         Color color, Color rim, Align align) {
   for (const double dx : {-1.0, 0.0, 1.0})
     for (const double dy : {-1.0, 0.0, 1.0})
-      this->text(font, text, height, {pen.x + dx, pen.y + dy}, rim);
-  this->text(font, text, height, pen, color);
+      this->text(font, text, height, {pen.x + dx, pen.y + dy}, rim, align);
+  this->text(font, text, height, pen, color, align);
 }
 
 }  // namespace ghtrack::render

@@ -48,7 +48,7 @@ class Canvas {
   void ring(Pixel centre, double radius, Ink ink, double thickness = 1.0);
   void cross(Pixel centre, double arm, Ink ink, double thickness = 1.0);
   void arrow(Pixel from, Pixel to, double head, Ink ink, double thickness = 1.0);
-  void rectangle(const Viewport& area, Color fill);
+  void rectangle(const Viewport& area, Ink fill);
 
   /// @param pen where the baseline begins, ends, or has its middle
   void text(const Font& font, std::u32string_view text, int height, Pixel pen, Color color,
@@ -56,7 +56,7 @@ class Canvas {
 
   /// The same, with a dark rim that keeps it legible on anything.
   void rimmed_text(const Font& font, std::u32string_view text, int height, Pixel pen, Color color,
-                   Color rim);
+                   Color rim, Align align = Align::kLeft);
 
  private:
   Canvas(cv::Mat part, cv::Point origin);

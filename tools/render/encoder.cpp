@@ -81,9 +81,26 @@ class PngEncoder : public ImageEncoder {
   cv::Mat last_;
 };
 
+class PngSequence : public ImageEncoder {
+ public:
+  explicit PngSequence(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    fs::remove_all(folder_, error);  // what an interrupted run left
+    if (!fs::create_directory(folder_, error))
+      throw OutputError("cannot write '" + folder_.string() + "': " + error.message());
+  }
+  void add(const cv::Mat& image) override { write_png(folder_ / picture_name(count_++), image); }
+  void close() override {}
+
+ private:
+  fs::path folder_;
+  std::size_t count_ = 0;
+};
+
 }  // namespace
 
 std::unique_ptr<ImageEncoder> make_encoder(const VideoOptions& options, const fs::path& file) {
+  if (is_picture_folder(options.path)) return make_png_sequence(file);
   if (file.extension() == ".png") return make_png_encoder(file);
   if (options.encoder == Encoder::kOpenCv) return make_opencv_encoder(options, file);
   const fs::path program = find_ffmpeg();
@@ -100,6 +117,10 @@ std::unique_ptr<ImageEncoder> make_opencv_encoder(const VideoOptions& options,
 
 std::unique_ptr<ImageEncoder> make_png_encoder(const fs::path& file) {
   return std::make_unique<PngEncoder>(file);
+}
+
+std::unique_ptr<ImageEncoder> make_png_sequence(const fs::path& folder) {
+  return std::make_unique<PngSequence>(folder);
 }
 
 void write_png(const fs::path& path, const cv::Mat& image) {

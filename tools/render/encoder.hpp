@@ -35,6 +35,9 @@ std::unique_ptr<ImageEncoder> make_ffmpeg_encoder(const VideoOptions& options,
 /// One picture: the last image that is added, as PNG.
 std::unique_ptr<ImageEncoder> make_png_encoder(const std::filesystem::path& file);
 
+/// A new folder with a PNG file for each image.
+std::unique_ptr<ImageEncoder> make_png_sequence(const std::filesystem::path& folder);
+
 /// Writes a PNG file, completely or not at all.
 void write_png(const std::filesystem::path& path, const cv::Mat& image);
 

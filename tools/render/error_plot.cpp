@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/render/ticks.hpp"
+#include "tools/render/chart.hpp"
 
 namespace ghtrack::render {
 
 namespace {
 
-constexpr int kMostPoints = 2000;  // on a curve: no picture resolves more
+constexpr int kMostPoints = 1000;  // on a curve: no picture resolves more
 
 }  // namespace
 
@@ -25,42 +25,16 @@ void ErrorPlot::add(double time, const std::vector<std::optional<double>>& error
 
 void ErrorPlot::draw(Canvas& canvas, const Viewport& area, const Style& style,
                      const Typefaces& fonts) const {
-  const Viewport box{area.left + style.length(64), area.top + style.length(14),
-                     area.width - style.length(84), area.height - style.length(38)};
-  double highest = 1e-3;
+  double highest = 0.0;
   for (const std::vector<Point>& curve : curves_)
     for (const Point& point : curve) highest = std::max(highest, point.error);
-  const double step = round_step(highest / 3.0);
-  const double top = step * std::ceil(1.02 * highest / step);
-  const auto at = [&](double time, double error) {
-    return Pixel{box.left + box.width * (time - from_) / (to_ - from_),
-                 box.bottom() - box.height * error / top};
-  };
-
-  canvas.rectangle(area, dark::kWorld);
-  const int letters = style.letters(12);
-  for (const double error : round_ticks(0.0, top, static_cast<int>(std::lround(top / step)))) {
-    canvas.line(at(from_, error), at(to_, error), dark::kMajorGrid);
-    canvas.text(fonts.regular, tick_label(error, step), letters,
-                {box.left - style.length(6), at(from_, error).y + 0.35 * letters}, dark::kAxisText,
-                Canvas::Align::kRight);
-  }
-  const std::vector<double> times = round_ticks(from_, to_, 10);
-  const double time_step = times.size() > 1 ? times[1] - times[0] : 1.0;
-  for (const double time : times) {
-    canvas.line(at(time, 0.0), at(time, top), dark::kMinorGrid);
-    canvas.text(fonts.regular, tick_label(time, time_step) + (time == times.back() ? U" s" : U""),
-                letters, {at(time, 0.0).x, box.bottom() + 1.4 * letters}, dark::kAxisText,
-                Canvas::Align::kCentre);
-  }
+  const Chart chart(area, {from_, to_}, from_zero_to(highest), style, fonts);
+  chart.draw_axes(canvas, U"running RMSE of position [m]");
   for (std::size_t i = 0; i < curves_.size(); ++i) {
-    const Color color = track_color(static_cast<int>(i) + 1);
-    for (std::size_t k = 1; k < curves_[i].size(); ++k)
-      canvas.line(at(curves_[i][k - 1].time, curves_[i][k - 1].error),
-                  at(curves_[i][k].time, curves_[i][k].error), color, style.length(2));
+    std::vector<Pixel> line;
+    for (const Point& point : curves_[i]) line.push_back(chart.at(point.time, point.error));
+    canvas.polyline(line, track_color(static_cast<int>(i) + 1), style.length(2));
   }
-  canvas.text(fonts.regular, U"running RMSE of position [m]", style.letters(13),
-              {box.left + style.length(10), box.top + style.length(12)}, dark::kMutedText);
 }
 
 }  // namespace ghtrack::render

@@ -58,8 +58,21 @@ class Font::Face {
   }
 
  private:
+  /// What Hershey's font has for a character.
   static std::string strokes(char32_t character) {
-    return {character < 0x80 ? static_cast<char>(character) : '?'};
+    switch (character) {
+      case U'\u2007':  // a blank as wide as a digit
+      case U'\u00A0':
+        return " ";
+      case U'−':
+        return "-";
+      case U'×':
+        return "x";
+      case U'…':
+        return ".";
+      default:
+        return {character < 0x80 ? static_cast<char>(character) : '?'};
+    }
   }
 
   int width(const std::string& text, int height) const {

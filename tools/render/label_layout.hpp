@@ -17,15 +17,20 @@ struct LabelRequest {
   double height = 0.0;  // [px]
 };
 
+/// Something that labels should not hide.
+struct Obstacle {
+  Viewport box;
+  double cost = 0.7;  // of touching it; infinite: no label may lie there
+};
+
 /// Finds places for labels that overlap neither each other nor, if possible, what is marked. A
 /// label keeps its side of the anchor from picture to picture until another one is clearly better.
 class LabelLayout {
  public:
   /// @param requests  the most important first
-  /// @param obstacles what labels should not hide
   /// @return one place for each request; absent where there is no free place inside `area`
   std::vector<std::optional<Viewport>> place(const std::vector<LabelRequest>& requests,
-                                             const std::vector<Viewport>& obstacles,
+                                             const std::vector<Obstacle>& obstacles,
                                              const Viewport& area);
 
  private:

@@ -7,58 +7,86 @@ namespace ghtrack::render {
 namespace {
 
 constexpr double kHudHeight = 56.0;
-constexpr double kLegendHeight = 40.0;
 constexpr double kHeaderHeight = 28.0;
 constexpr double kGap = 4.0;
-constexpr double kPlotShare = 0.2;  // of the picture's height
+constexpr double kPlotShare = 0.2;      // of the picture's height
+constexpr double kCloseUpShare = 0.27;  // of the panel's width and height at least
+constexpr double kCloseUpMargin = 12.0;
 
-/// Size of one panel when `count` panels stand in so many columns.
+/// Panels in columns and rows. Where a place is left over, it is for the plots; otherwise they get
+/// a strip below.
 struct Grid {
-  int columns, rows;
-  double width, height;
+  int count, columns, rows;
+  double gap;
+  Viewport cell;  // the first
+  bool has_place_left;
+
+  Viewport place(int index) const {
+    return {cell.left + (index % columns) * (cell.width + gap),
+            cell.top + (index / columns) * (cell.height + gap), cell.width, cell.height};
+  }
 };
 
-Grid grid(const Viewport& area, int count, int columns, double gap) {
+Grid grid(const Viewport& area, int count, int columns, double gap, double strip) {
   const int rows = (count + columns - 1) / columns;
-  return {columns, rows, (area.width - gap * (columns - 1)) / columns,
-          (area.height - gap * (rows - 1)) / rows};
+  const bool has_place_left = rows * columns > count;
+  const double height = has_place_left ? area.height : area.height - strip;
+  return {count,
+          columns,
+          rows,
+          gap,
+          {area.left, area.top, (area.width - gap * (columns - 1)) / columns,
+           (height - gap * (rows - 1)) / rows},
+          has_place_left};
+}
+
+Viewport corner_of(const Viewport& panel, VideoCorner corner, const Style& style) {
+  const double margin = style.length(kCloseUpMargin);
+  const double width = kCloseUpShare * panel.width;
+  const double height = std::min(0.75 * width, panel.height - 2.0 * margin);
+  const bool is_left = corner == VideoCorner::kTopLeft || corner == VideoCorner::kBottomLeft;
+  const bool is_top = corner == VideoCorner::kTopLeft || corner == VideoCorner::kTopRight;
+  return {is_left ? panel.left + margin : panel.right() - margin - width,
+          is_top ? panel.top + margin : panel.bottom() - margin - height, width, height};
 }
 
 }  // namespace
 
-Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style) {
+Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style,
+               double legend_height) {
   const int count = std::max(1, static_cast<int>(scene.panels.size()));
   const double width = options.width;
   const double height = options.height;
   const double header = count > 1 ? style.length(kHeaderHeight) : 0.0;
-  const bool plots = count > 1 || options.layers.shows(Layer::kInsets);
+  const double gap = count > 1 ? style.length(kGap) : 0.0;
+  const bool has_plots = count > 1 || options.layers.shows(Layer::kInsets);
+  const double strip = has_plots ? kPlotShare * height : 0.0;
 
   Layout layout;
   layout.hud = {0.0, 0.0, width,
                 options.layers.shows(Layer::kHud) ? style.length(kHudHeight) : 0.0};
-  const double legend = options.layers.shows(Layer::kLegend) ? style.length(kLegendHeight) : 0.0;
-  layout.legend = {0.0, height - legend, width, legend};
-  const double plot = plots ? kPlotShare * height : 0.0;
-  layout.plot = {0.0, layout.legend.top - plot, width, plot};
+  layout.legend = {0.0, height - legend_height, width, legend_height};
 
-  const Viewport area{0.0, layout.hud.bottom(), width, layout.plot.top - layout.hud.bottom()};
-  const double gap = count > 1 ? style.length(kGap) : 0.0;
+  const Viewport area{0.0, layout.hud.bottom(), width, layout.legend.top - layout.hud.bottom()};
   const Rectangle world = world_of(scene);
   const Vec2 size = world.max - world.min;
-  const auto scale = [&](int columns) {
-    const Grid g = grid(area, count, columns, gap);
-    return std::min(g.width / size.x(), (g.height - header) / size.y());
+  Grid best = grid(area, count, 1, gap, strip);
+  const auto scale = [&](const Grid& g) {
+    return std::min(g.cell.width / size.x(), (g.cell.height - header) / size.y());
   };
-  int best = 1;
-  for (int columns = 2; columns <= count; ++columns)
-    if (scale(columns) > scale(best)) best = columns;
-  const Grid g = grid(area, count, best, gap);
-  for (int i = 0; i < count; ++i) {
-    const double left = area.left + (i % best) * (g.width + gap);
-    const double top = area.top + (i / best) * (g.height + gap);
-    layout.headers.push_back({left, top, g.width, header});
-    layout.panels.push_back({left, top + header, g.width, g.height - header});
+  for (int columns = 2; columns <= count; ++columns) {
+    const Grid other = grid(area, count, columns, gap, strip);
+    if (scale(other) > scale(best)) best = other;
   }
+  for (int i = 0; i < count; ++i) {
+    const Viewport place = best.place(i);
+    layout.headers.push_back({place.left, place.top, place.width, header});
+    layout.panels.push_back({place.left, place.top + header, place.width, place.height - header});
+  }
+  layout.plots = best.has_place_left ? best.place(count)
+                                     : Viewport{0.0, layout.legend.top - strip, width, strip};
+  if (options.close_up && count == 1)
+    layout.close_up = corner_of(layout.panels.front(), options.close_up->corner, style);
   return layout;
 }
 

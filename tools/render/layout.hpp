@@ -12,11 +12,14 @@ struct Layout {
   Viewport hud;
   std::vector<Viewport> headers;  // of the panels, when there are several
   std::vector<Viewport> panels;   // what shows the world, one for each compared filter
-  Viewport plot;                  // of the errors over time
+  Viewport plots;                 // over time
+  Viewport close_up;              // on top of the only panel
   Viewport legend;
 };
 
 /// Arranges the panels so that the world is shown as large as possible.
-Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style);
+/// @param legend_height  [px]
+Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style,
+               double legend_height);
 
 }  // namespace ghtrack::render

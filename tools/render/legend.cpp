@@ -1,51 +1,25 @@
 #include "tools/render/legend.hpp"
 
 #include <algorithm>
-#include <string_view>
+#include <utility>
+
+#include "tools/render/text.hpp"
+#include "tools/render/wind_painter.hpp"
 
 namespace ghtrack::render {
 
 namespace {
 
-std::u32string_view meaning(Sign sign) {
-  switch (sign) {
-    case Sign::kTrain:
-    case Sign::kBall:
-    case Sign::kBalloon:
-    case Sign::kDrone:
-      return U"truth";
-    case Sign::kFieldOfView:
-      return U"field of view";
-    case Sign::kDetection:
-      return U"detection";
-    case Sign::kClutter:
-      return U"clutter";
-    case Sign::kTrack:
-      return U"estimate";
-    case Sign::kTentative:
-      return U"tentative";
-    case Sign::kCoasting:
-      return U"coasting";
-    case Sign::kTrail:
-      return U"trail";
-    case Sign::kResidual:
-      return U"prior, residual";
-    case Sign::kGate:
-      return U"gate 99 %";
-    case Sign::kFan:
-      return U"prediction";
-    case Sign::kLost:
-      return U"lost";
-    case Sign::kSwitch:
-      return U"new id";
-    case Sign::kWind:
-      return U"wind";
-  }
-  return U"";
-}
+constexpr double kIcon = 26.0;     // width of a sign
+constexpr double kGap = 6.0;       // between a sign and its meaning
+constexpr double kSpace = 18.0;    // between entries
+constexpr double kMargin = 16.0;   // beside a row
+constexpr double kRow = 26.0;      // height of a row
+constexpr double kPadding = 12.0;  // above and below the rows together
+constexpr double kLetters = 14.0;
 
 /// Draws a sign in a box of 26 × 26 units around its middle.
-void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style) {
+void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wind_arrow) {
   const double u = style.unit;
   const Color color = kSkyBlue;
   const auto at = [&](double x, double y) { return Pixel{m.x + x * u, m.y + y * u}; };
@@ -58,17 +32,20 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style) {
     }
     case Sign::kBall:
       canvas.disc(m, 6 * u, dark::kTruth);
+      canvas.ring(m, 6 * u, dark::kTruthEdge, style.length(1));
       canvas.line(m, at(5.5, -2), dark::kTruthEdge, style.length(1.5));
       break;
     case Sign::kBalloon:
       canvas.line(at(0, 4), at(1, 12), dark::kTruthEdge, style.length(1));
       canvas.polygon(ellipse_outline(at(0, -2), {6 * u, 0}, {0, 7 * u}), dark::kTruth);
+      canvas.outline(ellipse_outline(at(0, -2), {6 * u, 0}, {0, 7 * u}), dark::kTruthEdge,
+                     style.length(1));
       break;
     case Sign::kDrone:
       canvas.polygon({at(-4, 0), at(4, 0), at(3, 5), at(-3, 5)}, dark::kTruth);
-      canvas.line(at(-9, 0), at(9, 0), dark::kTruth, style.length(2));
+      canvas.line(at(-9, 0), at(9, 0), dark::kTruthEdge, style.length(2));
       for (const double side : {-9.0, 9.0})
-        canvas.line(at(side - 4, -3), at(side + 4, -3), dark::kTruth, style.length(1.5));
+        canvas.line(at(side - 4, -3), at(side + 4, -3), dark::kTruthEdge, style.length(1.5));
       break;
     case Sign::kDetection:
       canvas.cross(m, 5 * u, dark::kDetection, style.length(1.5));
@@ -94,9 +71,8 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style) {
                     mix(dark::kPage, color, 0.2 + 0.16 * i), style.length(2));
       break;
     case Sign::kResidual:
-      canvas.line(at(-8, 4), at(8, -4), color, style.length(1.5));
-      canvas.polygon({at(-12, 4), at(-8, 0), at(-4, 4), at(-8, 8)}, color);
-      canvas.cross(at(8, -4), 4 * u, dark::kDetection, style.length(1.5));
+      canvas.polygon({at(-13, 4), at(-9, 0), at(-5, 4), at(-9, 8)}, color);
+      canvas.arrow(at(-9, 4), at(8, -4), 7 * u, color, style.length(1.5));
       break;
     case Sign::kGate:
       canvas.outline(ellipse_outline(m, {12 * u, 0}, {0, 8 * u}), {color, 0.6}, style.length(1));
@@ -114,42 +90,122 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style) {
       canvas.dashed({at(-12, 0), at(12, 0)}, dark::kAxisText, 7 * u, 5 * u, style.length(1.3));
       break;
     case Sign::kWind:
-      canvas.arrow(at(-11, 0), at(11, 0), 7 * u, dark::kAxisText, style.length(1));
+      canvas.arrow({m.x - 0.5 * wind_arrow, m.y}, {m.x + 0.5 * wind_arrow, m.y}, 7 * u,
+                   dark::kAxisText, style.length(1));
       break;
   }
 }
 
+/// The shapes of a scene's objects, each once.
+std::vector<Sign> shapes_of(const SceneDrawing& scene) {
+  std::vector<Sign> shapes;
+  const auto occurs = [&](Outline::Shape shape) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [shape](const ObjectInfo& object) { return object.outline.shape == shape; });
+  };
+  for (const auto& [shape, sign] : {std::pair{Outline::Shape::kBox, Sign::kTrain},
+                                    {Outline::Shape::kDisc, Sign::kBall},
+                                    {Outline::Shape::kBalloon, Sign::kBalloon},
+                                    {Outline::Shape::kDrone, Sign::kDrone}})
+    if (occurs(shape)) shapes.push_back(sign);
+  return shapes;
+}
+
 }  // namespace
 
-void Legend::draw(Canvas& canvas, const Viewport& area, const Style& style,
-                  const Typefaces& fonts) const {
-  const int letters = style.letters(13);
-  const double icon = style.length(26);
-  const double gap = style.length(7);
-  const double margin = style.length(16);
-  // Neighbours of the same meaning, such as the shapes of the truth, share one text.
-  const auto ends_entry = [&](std::set<Sign>::const_iterator sign) {
-    const auto next = std::next(sign);
-    return next == signs_.end() || meaning(*next) != meaning(*sign);
+Legend::Legend(const VideoOptions& options, const SceneDrawing& scene, const Style& style,
+               const Style& world_style, const Typefaces& fonts)
+    : style_(style), fonts_(fonts) {
+  const Layers& layers = options.layers;
+  if (!layers.shows(Layer::kLegend)) return;
+  const auto any_sensor = [&](auto holds) {
+    return std::any_of(scene.sensors.begin(), scene.sensors.end(), holds);
   };
-  double used = 0.0;
-  int entries = 0;
-  for (auto sign = signs_.begin(); sign != signs_.end(); ++sign) {
-    used += icon + gap;
-    if (!ends_entry(sign)) continue;
-    used += fonts.regular.width(meaning(*sign), letters);
-    ++entries;
+  const std::vector<Sign> shapes = shapes_of(scene);
+  if (layers.shows(Layer::kTruth) && !shapes.empty()) add(shapes, U"truth");
+  if (layers.shows(Layer::kFieldOfView) &&
+      any_sensor([](const SensorDrawing& sensor) { return sensor.field_of_view.size() > 2; }))
+    add({Sign::kFieldOfView}, U"field of view");
+  if (layers.shows(Layer::kWind) && scene.strongest_wind > 0.0) {
+    const double speed = round_wind(scene);
+    wind_arrow_ = wind_arrow_length(speed, scene, world_style);
+    add({Sign::kWind}, U"wind " + number_text("%g m/s", speed));
   }
-  const double space =
-      std::min(style.length(24), (area.width - 2.0 * margin - used) / std::max(1, entries - 1));
-  double x = area.left + margin;
-  const double y = area.top + 0.5 * area.height;
-  for (auto sign = signs_.begin(); sign != signs_.end(); ++sign) {
-    draw_sign(canvas, *sign, {x + 0.5 * icon, y}, style);
-    x += icon + gap;
-    if (!ends_entry(sign)) continue;
-    canvas.text(fonts.regular, meaning(*sign), letters, {x, y + 0.36 * letters}, dark::kMutedText);
-    x += fonts.regular.width(meaning(*sign), letters) + space;
+  if (layers.shows(Layer::kDetections)) add({Sign::kDetection}, U"detection");
+  if (layers.shows(Layer::kClutter) &&
+      any_sensor([](const SensorDrawing& sensor) { return sensor.has_clutter; }))
+    add({Sign::kClutter}, U"clutter");
+  if (layers.shows(Layer::kResiduals)) add({Sign::kResidual}, U"prior, residual");
+  if (layers.shows(Layer::kGates)) add({Sign::kGate}, U"predicted innovation, 99 %");
+  if (layers.shows(Layer::kTracks)) add({Sign::kTrack}, U"estimate");
+  if (layers.shows(Layer::kTrails)) add({Sign::kTrail}, U"its trail");
+  if (layers.shows(Layer::kFans)) add({Sign::kFan}, U"next second");
+  if (layers.shows(Layer::kTentative)) add({Sign::kTentative}, U"tentative");
+  if (layers.shows(Layer::kTracks)) add({Sign::kCoasting}, U"coasting");
+  if (layers.shows(Layer::kEvents)) {
+    add({Sign::kLost}, U"lost");
+    add({Sign::kSwitch}, U"ID switch");
+  }
+  break_into_rows(options.width - 2.0 * style.length(kMargin));
+}
+
+void Legend::add(std::vector<Sign> signs, std::u32string meaning) {
+  const double icons = static_cast<double>(signs.size()) * style_.length(kIcon);
+  const double extra = std::max(0.0, wind_arrow_ - style_.length(kIcon));
+  Entry entry{std::move(signs), std::move(meaning), 0.0};
+  entry.width = icons + style_.length(kGap) +
+                fonts_.regular.width(entry.meaning, style_.letters(kLetters)) +
+                (entry.signs.front() == Sign::kWind ? extra : 0.0);
+  entries_.push_back(std::move(entry));
+}
+
+/// Begins a new row wherever the next entry would be beyond `room` [px].
+/// @return the number of rows
+int Legend::fill_rows(double room) {
+  int rows = 1;
+  double used = 0.0;
+  for (Entry& entry : entries_) {
+    entry.begins_row = used > 0.0 && used + entry.width > room;
+    if (entry.begins_row) {
+      used = 0.0;
+      ++rows;
+    }
+    used += entry.width + style_.length(kSpace);
+  }
+  return rows;
+}
+
+/// As few rows as possible, of about the same length.
+void Legend::break_into_rows(double room) {
+  const int rows = fill_rows(room);
+  double shortest = room / rows;
+  while (shortest < room && fill_rows(shortest) > rows) shortest += style_.length(4);
+  fill_rows(std::min(shortest, room));
+}
+
+double Legend::height() const {
+  if (entries_.empty()) return 0.0;
+  const auto breaks = std::count_if(entries_.begin(), entries_.end(),
+                                    [](const Entry& entry) { return entry.begins_row; });
+  return style_.length(kRow * static_cast<double>(1 + breaks) + kPadding);
+}
+
+void Legend::draw(Canvas& canvas, const Viewport& area) const {
+  const int letters = style_.letters(kLetters);
+  const double left = area.left + style_.length(kMargin);
+  Pixel at{left, area.top + style_.length(0.5 * (kPadding + kRow))};
+  for (const Entry& entry : entries_) {
+    if (entry.begins_row) at = {left, at.y + style_.length(kRow)};
+    double x = at.x;
+    for (const Sign sign : entry.signs) {
+      const double icon =
+          sign == Sign::kWind ? std::max(wind_arrow_, style_.length(kIcon)) : style_.length(kIcon);
+      draw_sign(canvas, sign, {x + 0.5 * icon, at.y}, style_, wind_arrow_);
+      x += icon;
+    }
+    canvas.text(fonts_.regular, entry.meaning, letters,
+                {x + style_.length(kGap), at.y + 0.36 * letters}, dark::kMutedText);
+    at.x += entry.width + style_.length(kSpace);
   }
 }
 

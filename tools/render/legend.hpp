@@ -1,6 +1,7 @@
 #pragma once
 
-#include <set>
+#include <string>
+#include <vector>
 
 #include "tools/render/canvas.hpp"
 #include "tools/render/style.hpp"
@@ -28,14 +29,33 @@ enum class Sign {
   kSwitch,
 };
 
-/// The line at the bottom that explains the signs seen so far.
+/// The lines at the bottom that explain the signs which the pictures of a video may show.
 class Legend {
  public:
-  void saw(Sign sign) { signs_.insert(sign); }
-  void draw(Canvas& canvas, const Viewport& area, const Style& style, const Typefaces& fonts) const;
+  /// @param style,fonts  must outlive the legend
+  /// @param world_style  of the panels, in whose measure wind is drawn
+  Legend(const VideoOptions& options, const SceneDrawing& scene, const Style& style,
+         const Style& world_style, const Typefaces& fonts);
+
+  double height() const;  // [px]
+  void draw(Canvas& canvas, const Viewport& area) const;
 
  private:
-  std::set<Sign> signs_;
+  /// Signs that share one meaning, such as the shapes of the truth.
+  struct Entry {
+    std::vector<Sign> signs;
+    std::u32string meaning;
+    double width;  // [px] of it all
+    bool begins_row = false;
+  };
+  void add(std::vector<Sign> signs, std::u32string meaning);
+  int fill_rows(double room);
+  void break_into_rows(double room);
+
+  const Style& style_;
+  const Typefaces& fonts_;
+  double wind_arrow_ = 0.0;  // [px] length of the wind's sample
+  std::vector<Entry> entries_;
 };
 
 }  // namespace ghtrack::render

@@ -48,27 +48,18 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-}  // namespace
-
-void check_output_path(const fs::path& path, std::initializer_list<std::string_view> extensions) {
-  const std::string given = path.string();
-  const std::string name = path.filename().string();
+void check_name(const std::string& given, const std::string& name) {
   if (given.find("://") != std::string::npos || !is_plain(name))
     throw RequestError("cannot write " + quoted(given) +
                        ": a file name consists of A-Z a-z 0-9 . _ - only, at most 200, and does "
                        "not start with a dot or a dash");
-  const std::string extension = path.extension().empty() ? "" : path.extension().string().substr(1);
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-    throw RequestError("cannot write " + quoted(given) + ": its extension is " +
-                       (extension.empty() ? "missing" : quoted(extension)) +
-                       "; available: " + listed(extensions));
+}
+
+void check_folder(const std::string& given, const fs::path& folder) {
   std::error_code error;
-  const fs::path folder = folder_of(path);
   if (!fs::is_directory(folder, error))
     throw OutputError("cannot write " + quoted(given) + ": the folder " + quoted(folder.string()) +
                       " does not exist");
-  if (fs::is_directory(path, error))
-    throw OutputError("cannot write " + quoted(given) + ": it is a folder");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw OutputError("cannot write " + quoted(given) + ": the folder " + quoted(folder.string()) +
                       " is not writable");
@@ -76,15 +67,76 @@ void check_output_path(const fs::path& path, std::initializer_list<std::string_v
     throw OutputError("cannot write " + quoted(given) + ": " + std::string(problem));
 }
 
+/// `a/run/` and `a/run//` → `a/run`.
+fs::path without_slash(const fs::path& path) {
+  std::string text = path.string();
+  while (text.size() > 1 && text.back() == '/') text.pop_back();
+  return text;
+}
+
+bool is_picture_name(const std::string& name) {
+  constexpr std::string_view kBefore = "frame_";
+  constexpr std::string_view kAfter = ".png";
+  if (!name.starts_with(kBefore) || !name.ends_with(kAfter)) return false;
+  const auto digits =
+      std::string_view(name).substr(kBefore.size(), name.size() - kBefore.size() - kAfter.size());
+  return !digits.empty() &&
+         std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+void check_output_path(const fs::path& path, std::initializer_list<std::string_view> extensions) {
+  const std::string given = path.string();
+  check_name(given, path.filename().string());
+  std::error_code error;
+  if (fs::is_directory(path, error))
+    throw OutputError("cannot write " + quoted(given) +
+                      ": it is a folder; name a file in it, or end the name with a slash for a "
+                      "folder of pictures");
+  const std::string extension = path.extension().empty() ? "" : path.extension().string().substr(1);
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    throw RequestError("cannot write " + quoted(given) + ": its extension is " +
+                       (extension.empty() ? "missing" : quoted(extension)) +
+                       "; available: " + listed(extensions));
+  check_folder(given, folder_of(path));
+}
+
+bool is_picture_folder(const fs::path& path) { return !path.empty() && !path.has_filename(); }
+
+void check_picture_folder(const fs::path& path) {
+  const std::string given = path.string();
+  const fs::path folder = without_slash(path);
+  check_name(given, folder.filename().string());
+  check_folder(given, folder_of(folder));
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  if (!fs::is_directory(folder, error))
+    throw OutputError("cannot write " + quoted(given) + ": it is a file, not a folder");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (!is_picture_name(entry.path().filename().string()))
+      throw RequestError("cannot write " + quoted(given) + ": the folder holds " +
+                         quoted(entry.path().filename().string()) +
+                         ", which is no picture of a video; name a new folder");
+}
+
+std::string picture_name(std::size_t index) {
+  const std::string number = std::to_string(index);
+  return "frame_" + std::string(6 - std::min<std::size_t>(6, number.size()), '0') + number + ".png";
+}
+
 fs::path partial_path(const fs::path& path) {
-  const fs::path absolute = fs::absolute(path);
+  const fs::path absolute = fs::absolute(without_slash(path));
+  if (is_picture_folder(path)) return absolute.string() + ".partial";
   return absolute.parent_path() /
          (absolute.stem().string() + ".partial" + absolute.extension().string());
 }
 
 void commit_file(const fs::path& partial, const fs::path& path) {
   std::error_code error;
-  fs::rename(partial, path, error);
+  const fs::path name = without_slash(path);
+  if (is_picture_folder(path)) fs::remove_all(name, error);
+  fs::rename(partial, name, error);
   if (error) throw OutputError("cannot write " + quoted(path.string()) + ": " + error.message());
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <string>
 #include <string_view>
 
 namespace ghtrack::render {
@@ -13,10 +14,22 @@ namespace ghtrack::render {
 void check_output_path(const std::filesystem::path& path,
                        std::initializer_list<std::string_view> extensions);
 
-/// The name that a file has until it is complete: `run.mp4` → `run.partial.mp4`, absolute.
+/// Does this name, which ends with a slash, ask for a folder of pictures?
+bool is_picture_folder(const std::filesystem::path& path);
+
+/// Checks a folder that is to be filled with pictures: as check_output_path(), and if it is there
+/// already it holds nothing but such pictures, which will be replaced.
+/// @throws RequestError, OutputError
+void check_picture_folder(const std::filesystem::path& path);
+
+/// Name of a picture in such a folder: frame_000012.png.
+std::string picture_name(std::size_t index);
+
+/// The name that a file or folder has until it is complete: `run.mp4` → `run.partial.mp4`,
+/// `run/` → `run.partial`, absolute.
 std::filesystem::path partial_path(const std::filesystem::path& path);
 
-/// Gives a complete file its name.
+/// Gives a complete file or folder its name; an older one of that name is replaced.
 /// @throws OutputError
 void commit_file(const std::filesystem::path& partial, const std::filesystem::path& path);
 

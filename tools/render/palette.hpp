@@ -62,17 +62,17 @@ constexpr Color track_color(int id) {
 namespace dark {
 inline constexpr Color kPage{11, 14, 19};
 inline constexpr Color kWorld{17, 22, 29};
-inline constexpr Color kMinorGrid{23, 29, 38};
-inline constexpr Color kMajorGrid{34, 42, 53};
+inline constexpr Color kMinorGrid{24, 31, 40};
+inline constexpr Color kMajorGrid{40, 50, 62};
 inline constexpr Color kAxisText{128, 140, 155};
 inline constexpr Color kGround{31, 28, 25};
 inline constexpr Color kGroundLine{122, 106, 86};
 inline constexpr Color kRail{58, 68, 81};
 inline constexpr Color kTie{98, 110, 125};
 inline constexpr Color kFieldOfView{62, 82, 102};
-inline constexpr Color kWind{52, 78, 98};
-inline constexpr Color kTruth{176, 187, 200};
-inline constexpr Color kTruthEdge{86, 97, 111};
+inline constexpr Color kWind{60, 90, 112};
+inline constexpr Color kTruth{92, 103, 117};
+inline constexpr Color kTruthEdge{190, 200, 212};
 inline constexpr Color kDetection{255, 255, 255};
 inline constexpr Color kClutter{122, 131, 143};
 inline constexpr Color kTentative{148, 157, 168};

@@ -2,12 +2,17 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include <memory>
+#include <optional>
 #include <vector>
 
+#include "tools/render/camera.hpp"
 #include "tools/render/error_plot.hpp"
+#include "tools/render/inset_plots.hpp"
 #include "tools/render/layout.hpp"
-#include "tools/render/track_painter.hpp"
+#include "tools/render/legend.hpp"
+#include "tools/render/stage.hpp"
+#include "tools/render/track_labels.hpp"
+#include "tools/render/track_memory.hpp"
 
 namespace ghtrack::render {
 
@@ -15,29 +20,44 @@ namespace ghtrack::render {
 class Picture {
  public:
   Picture(const VideoOptions& options, const SceneDrawing& scene);
+  Picture(const Picture&) = delete;
+  Picture& operator=(const Picture&) = delete;
 
   /// @param image receives the picture: 8 bit BGR, of the options' size
   void draw(const VideoFrame& frame, cv::Mat& image);
 
+  /// Takes note of a frame that is not drawn: trails, labels and plots go on from it.
+  void remember(const VideoFrame& frame);
+
+  const Layout& layout() const { return layout_; }
+
  private:
-  void draw_backdrop_into(cv::Mat& image, const std::vector<View>& views);
-  void draw_panel(Canvas& canvas, const View& view, const VideoFrame& frame, std::size_t index);
-  void draw_detections(Canvas& canvas, const View& view, const VideoFrame& frame);
-  void draw_header(Canvas& canvas, const PanelFrame& panel, std::size_t index);
-  void draw_hud(Canvas& canvas, const VideoFrame& frame);
+  /// What one tracker's panel needs from frame to frame.
+  struct Panel {
+    View view;
+    TrackMemory memory;
+    TrackLabels labels;
+  };
+  Stage stage_of(const View& view) const;
+  void draw_still_parts(std::vector<View> views);
+  void draw_world(Canvas& canvas, const Stage& stage, const VideoFrame& frame, std::size_t panel);
+  void draw_detections(Canvas& canvas, const Stage& stage, const VideoFrame& frame) const;
+  std::optional<View> close_up_view(const TruthSnapshot& truth) const;
+  void draw_close_up(Canvas& canvas, const View& view, const VideoFrame& frame);
 
   VideoOptions options_;
   SceneDrawing scene_;
   Style style_;
   Style panel_style_;  // of what shows the world
   Typefaces fonts_;
-  Layout layout_;
-  std::vector<View> views_;             // one per panel, when nothing is followed
-  std::vector<TrackPainter> painters_;  // one per panel
-  cv::Mat backdrop_;                    // what does not move, drawn once; empty when following
-  double strongest_wind_ = 0.0;         // [m/s] so far
   Legend legend_;
+  Layout layout_;
+  Camera camera_;
+  std::vector<Panel> panels_;
+  cv::Mat still_parts_;            // what does not move, as long as the camera does not
+  std::vector<View> still_views_;  // for which that was drawn
   ErrorPlot errors_;
+  InsetPlots insets_;
 };
 
 }  // namespace ghtrack::render

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <utility>
 
 namespace ghtrack::render {
@@ -70,6 +71,19 @@ std::u32string drawable(std::string_view text, std::size_t longest) {
   }
   while (!result.empty() && result.back() == U' ') result.pop_back();
   return result;
+}
+
+std::u32string number_text(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return drawable(text);
+}
+
+std::u32string count_text(std::size_t count, std::size_t digits) {
+  constexpr char32_t kBlankDigit = U'\u2007';
+  std::u32string text = drawable(std::to_string(count));
+  if (text.size() < digits) text.insert(0, digits - text.size(), kBlankDigit);
+  return text;
 }
 
 }  // namespace ghtrack::render

@@ -11,4 +11,11 @@ namespace ghtrack::render {
 /// direction of writing are left out.
 std::u32string drawable(std::string_view text, std::size_t longest = 200);
 
+/// A number in the format of printf, such as "%.2f m".
+std::u32string number_text(const char* format, double value);
+
+/// A count, padded on the left so that it takes the room of so many digits: what stands beside it
+/// stays where it is.
+std::u32string count_text(std::size_t count, std::size_t digits);
+
 }  // namespace ghtrack::render

@@ -50,7 +50,7 @@ void draw_balloon(Canvas& canvas, Pixel centre, double radius, const Style& styl
                   {knot.x + 0.22 * radius, knot.y + 0.25 * radius}},
                  dark::kTruth);
   canvas.line({centre.x - 0.45 * radius, centre.y - 0.2 * radius},
-              {centre.x - 0.2 * radius, centre.y - 0.55 * radius}, dark::kDetection,
+              {centre.x - 0.2 * radius, centre.y - 0.55 * radius}, dark::kTruthEdge,
               style.length(1.5));
 }
 
@@ -62,10 +62,10 @@ void draw_drone(Canvas& canvas, Pixel centre, double radius, double angle, const
   };
   const double thick = style.length(1.6);
   canvas.polygon({at(-0.3, 0.12), at(0.3, 0.12), at(0.2, -0.35), at(-0.2, -0.35)}, dark::kTruth);
-  canvas.line(at(-0.65, 0.05), at(0.65, 0.05), dark::kTruth, style.length(2));
+  canvas.line(at(-0.65, 0.05), at(0.65, 0.05), dark::kTruthEdge, style.length(2));
   for (const double side : {-0.65, 0.65}) {
     canvas.line(at(side, 0.05), at(side, 0.3), dark::kTruthEdge, thick);
-    canvas.line(at(side - 0.35, 0.3), at(side + 0.35, 0.3), dark::kTruth, thick);
+    canvas.line(at(side - 0.35, 0.3), at(side + 0.35, 0.3), dark::kTruthEdge, thick);
   }
 }
 
@@ -103,9 +103,8 @@ double drawn_radius(const Outline& outline, const View& view, const Style& style
   return std::fmax(0.5 * outline.length * view.scale(), style.length(smallest));
 }
 
-ShapesShown draw_truth(Canvas& canvas, const View& view, const SceneDrawing& scene,
-                       const TruthSnapshot& truth, const Style& style) {
-  ShapesShown shown;
+void draw_truth(Canvas& canvas, const Stage& stage, const TruthSnapshot& truth) {
+  const auto& [view, scene, layers, style, fonts] = stage;
   for (const BodyPose& body : truth.bodies) {
     const ObjectInfo* const object = find(scene, body.id);
     if (object == nullptr) continue;
@@ -114,35 +113,17 @@ ShapesShown draw_truth(Canvas& canvas, const View& view, const SceneDrawing& sce
     switch (object->outline.shape) {
       case Outline::Shape::kBox:
         draw_box(canvas, centre, body, object->outline, view, style);
-        shown.box = true;
         break;
       case Outline::Shape::kDisc:
         draw_disc(canvas, centre, radius, body.angle, style);
-        shown.disc = true;
         break;
       case Outline::Shape::kBalloon:
         draw_balloon(canvas, centre, radius, style);
-        shown.balloon = true;
         break;
       case Outline::Shape::kDrone:
         draw_drone(canvas, centre, radius, body.angle, style);
-        shown.drone = true;
         break;
     }
-  }
-  return shown;
-}
-
-void draw_wind(Canvas& canvas, const View& view, const std::vector<WindSample>& wind,
-               double reference, const Style& style) {
-  if (!(reference > 0.0)) return;
-  const double longest = style.length(60);
-  for (const WindSample& sample : wind) {
-    const Pixel middle = view.to_pixel(sample.position);
-    const double x = longest * sample.velocity.x() / reference;
-    const double y = -longest * sample.velocity.y() / reference;
-    canvas.arrow({middle.x - 0.5 * x, middle.y - 0.5 * y}, {middle.x + 0.5 * x, middle.y + 0.5 * y},
-                 style.length(7), dark::kWind, style.length(1));
   }
 }
 

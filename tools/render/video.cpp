@@ -55,13 +55,23 @@ double frame_time(const VideoOptions& options, std::size_t index) {
   return options.from + static_cast<double>(index) / (options.fps * options.slow);
 }
 
+std::vector<double> frame_times(const VideoOptions& options, double duration) {
+  std::vector<double> times(frame_count(options, duration));
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = frame_time(options, i);
+  return times;
+}
+
 void check_request(const VideoOptions& options) {
   check_side("width", options.width);
   check_side("height", options.height);
   check_range("fps", options.fps, 1.0, 240.0);
   check_range("slow", options.slow, 0.01, 1000.0);
-  check_range("follow width", options.follow_width, 0.1, 1e5);
-  check_output_path(options.path, {"mp4", "webm", "avi", "mkv", "gif", "png"});
+  for (const Shot& shot : options.shots) check_range("a shot's width", shot.width, 0.1, 1e5);
+  if (options.close_up) check_range("the close-up's width", options.close_up->width, 0.1, 1e5);
+  if (is_picture_folder(options.path))
+    check_picture_folder(options.path);
+  else
+    check_output_path(options.path, {"mp4", "webm", "avi", "mkv", "gif", "png"});
 }
 
 VideoWriter::VideoWriter(const VideoOptions& options, const SceneDrawing& scene) {

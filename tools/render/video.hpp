@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scenes/schema/video_corner.hpp"
 #include "sensors/observation.hpp"
 #include "sim/surface.hpp"
 #include "sim/truth.hpp"
@@ -30,11 +32,27 @@ enum class Encoder {
   kOpenCv,     // OpenCV's own FFmpeg backend: no other process; no webm, no gif
 };
 
+/// Where the camera looks from some time on.
+struct Shot {
+  double at = 0.0;                 // [s] scene time
+  std::optional<ObjectId> target;  // stays in the middle of the picture while it exists
+  std::optional<Vec2> center;      // [m]; neither of the two: the whole world
+  double width = 40.0;             // [m] of the world across the picture
+};
+
+/// A picture in the picture that follows an object.
+struct CloseUp {
+  ObjectId target = 0;
+  double width = 10.0;  // [m] of the world across it
+  VideoCorner corner = VideoCorner::kTopRight;
+};
+
 /// How a video is to be made.
 struct VideoOptions {
   /// The file. Its folder must exist; its name consists of A-Z a-z 0-9 . _ - and does not start
   /// with a dot or a dash; its extension chooses the format: mp4 (H.264), webm (VP9), avi (Motion
-  /// JPEG), mkv (lossless FFV1), gif, or png (one picture: the last frame).
+  /// JPEG), mkv (lossless FFV1), gif, or png (one picture: the last frame). A name that ends with a
+  /// slash is a new folder of pictures, frame_000000.png and so on.
   std::filesystem::path path;
   int width = 1280;          // [px], even
   int height = 720;          // [px], even
@@ -44,8 +62,9 @@ struct VideoOptions {
   std::optional<double> to;  // [s] scene time at which the video ends; the scene's end if absent
   Layers layers = kDefaultLayers;
   Encoder encoder = Encoder::kAutomatic;
-  std::optional<ObjectId> follow;  // keeps this object in the middle of the picture
-  double follow_width = 40.0;      // [m] of the world across the picture when following
+  std::vector<Shot> shots;  // in the order of time; before the first the whole world is shown
+  double glide = 1.5;       // [s] scene time that the camera takes from shot to shot
+  std::optional<CloseUp> close_up;
 };
 
 /// A scene sensor, as far as it is drawn.
@@ -53,6 +72,7 @@ struct SensorDrawing {
   std::string name;
   double rate = 0.0;                // [Hz]
   std::vector<Vec2> field_of_view;  // its corners in order [m]; empty: sees everything
+  bool has_clutter = false;
 };
 
 /// One of several compared filters, or the scene's own tracker.
@@ -78,19 +98,24 @@ struct SceneDrawing {
   /// What is compared side by side: at most six, each a panel of its own. Empty or one: one
   /// picture.
   std::vector<PanelDrawing> panels;
+  /// Velocity of the air [m/s] at a place [m] and a time [s]; empty: no arrows.
+  std::function<Vec2(const Vec2&, double)> wind;
+  double strongest_wind = 0.0;  // [m/s] to be expected: scales the arrows
 };
 
-/// The wind at one place, for the arrows.
-struct WindSample {
-  Vec2 position = Vec2::Zero();  // [m]
-  Vec2 velocity = Vec2::Zero();  // [m/s]
+/// Which track follows which object at an instant, and how far it is off.
+struct Pairing {
+  ObjectId object = 0;
+  int track = 0;
+  double distance = 0.0;  // [m]
 };
 
 /// What one tracker says at the time of a frame.
 struct PanelFrame {
-  TrackSnapshot tracks;         // the latest at the frame's time
-  std::optional<double> gospa;  // [m], running; shown if given
-  std::optional<double> rmse;   // [m] of the positions, running; shown and plotted if given
+  TrackSnapshot tracks;           // the latest at the frame's time
+  std::vector<Pairing> pairings;  // of that snapshot
+  std::optional<double> gospa;    // [m], running; shown if given
+  std::optional<double> rmse;     // [m] of the positions, running; shown and plotted if given
 };
 
 /// What changes from frame to frame.
@@ -99,7 +124,6 @@ struct VideoFrame {
   TruthSnapshot truth;                    // at this time
   std::vector<Observation> observations;  // the latest scan of every sensor that has reported
   std::vector<PanelFrame> panels;         // in the order of SceneDrawing::panels, at least one
-  std::vector<WindSample> wind;           // empty: no arrows
   std::size_t scans = 0;                  // until now, of all sensors
 };
 
@@ -111,12 +135,17 @@ std::size_t frame_count(const VideoOptions& options, double duration);
 /// Scene time [s] of a frame; frame 0 is at `options.from`.
 double frame_time(const VideoOptions& options, std::size_t index);
 
+/// Scene times of all frames [s].
+/// @throws RequestError as frame_count()
+std::vector<double> frame_times(const VideoOptions& options, double duration);
+
 /// The smallest rectangle that holds these points and an extra margin of that share on each side.
 /// Points that are not finite are ignored. Absent if no point is left.
 std::optional<Rectangle> bounding_rectangle(const std::vector<Vec2>& points, double margin = 0.05);
 
-/// Where arrows for the wind are drawn: a coarse grid over the world that is shown.
-std::vector<Vec2> wind_points(const VideoOptions& options, const SceneDrawing& scene);
+/// The part of the world to show when the camera looks at the whole scene: SceneDrawing::world, or
+/// what holds the fields of view, rails, walls and boxes.
+Rectangle world_of(const SceneDrawing& scene);
 
 /// Checks what can be checked without writing: size, rates, interval, name, extension, folder.
 /// @throws RequestError naming the option and what is allowed

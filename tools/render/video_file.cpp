@@ -95,7 +95,7 @@ class VideoFile : public VideoSink {
     encoding_.reset();
     encoder_.reset();
     std::error_code ignored;
-    if (!is_wanted_) fs::remove(partial_, ignored);
+    if (!is_wanted_) fs::remove_all(partial_, ignored);
   }
 
   void add_frame(const VideoFrame& frame) override {
@@ -129,7 +129,8 @@ class VideoFile : public VideoSink {
     encoding_->add(image_);
     encoding_->finish();
     encoder_->close();
-    if (path_.extension() != ".png") verify_video(partial_, frames_);
+    const bool is_video = !is_picture_folder(path_) && path_.extension() != ".png";
+    if (is_video) verify_video(partial_, frames_);  // pictures were verified one by one
   }
 
   fs::path path_;

@@ -82,17 +82,4 @@ Rectangle world_of(const SceneDrawing& scene) {
   return bounding_rectangle(points).value_or(Rectangle{Vec2(-10.0, -10.0), Vec2(10.0, 10.0)});
 }
 
-std::vector<Vec2> wind_points(const VideoOptions& options, const SceneDrawing& scene) {
-  constexpr double kSpacing = 1.0 / 9.0;  // of the picture's width
-  const double pixels = options.width * kSpacing;
-  const View view(world_of(scene), {0.0, 0.0, 1.0 * options.width, 1.0 * options.height});
-  std::vector<Vec2> points;
-  for (double y = 0.5 * pixels; y < options.height; y += pixels)
-    for (double x = 0.5 * pixels; x < options.width; x += pixels) {
-      const Vec2 point = view.to_world({x, y});
-      if (!scene.ground || point.y() > scene.ground->height_at(point.x())) points.push_back(point);
-    }
-  return points;
-}
-
 }  // namespace ghtrack::render

@@ -13,6 +13,7 @@ struct Viewport {
 
   double right() const { return left + width; }
   double bottom() const { return top + height; }
+  bool operator==(const Viewport&) const = default;
 };
 
 /// A point of the picture [px], x right, y down; the centre of the first pixel is (0, 0).
@@ -39,14 +40,12 @@ class View {
   /// What the viewport shows: at least the rectangle asked for.
   Rectangle world() const;
 
+  bool operator==(const View&) const = default;
+
  private:
   Viewport viewport_;
   Vec2 centre_;
   double scale_;
 };
-
-/// The part of the world to show when nothing is followed: SceneDrawing::world, or what holds the
-/// fields of view, rails, walls and the ground.
-Rectangle world_of(const SceneDrawing& scene);
 
 }  // namespace ghtrack::render

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace ghtrack::render {
 namespace {
@@ -55,8 +56,18 @@ TEST(LabelLayout, DoesNotJumpWhenThingsMoveALittle) {
 TEST(LabelLayout, MakesWayForWhatIsMarked) {
   LabelLayout layout;
   const Viewport first = *layout.place({label(1, 600.0, 300.0)}, {}, kArea)[0];
-  const Viewport second = *layout.place({label(1, 600.0, 300.0)}, {first}, kArea)[0];
+  const Viewport second = *layout.place({label(1, 600.0, 300.0)}, {{first}}, kArea)[0];
   EXPECT_EQ(overlap(first, second), 0.0);
+}
+
+// Property: where no label may lie, none lies, however crowded it is elsewhere.
+TEST(LabelLayout, NeverEntersForbiddenPlaces) {
+  LabelLayout layout;
+  const Obstacle picture{{620.0, 0.0, 660.0, 640.0}, std::numeric_limits<double>::infinity()};
+  std::vector<LabelRequest> requests;
+  for (int i = 0; i < 12; ++i) requests.push_back(label(i, 600.0, 300.0 + i));
+  for (const auto& place : layout.place(requests, {picture}, kArea))
+    EXPECT_EQ(place ? overlap(*place, picture.box) : 0.0, 0.0);
 }
 
 // Property: no place, no label; a crowd beyond measure does not pile up.

@@ -39,8 +39,7 @@ Color color_at(const cv::Mat& image, Pixel at) {
 }
 
 View view_of(const VideoOptions& options, const SceneDrawing& scene) {
-  const Layout layout = lay_out(options, scene, Style::of_picture(options.width, options.height));
-  return {world_of(scene), layout.panels.front()};
+  return {world_of(scene), Picture(options, scene).layout().panels.front()};
 }
 
 cv::Mat draw(const VideoOptions& options, const SceneDrawing& scene, const VideoFrame& frame) {
@@ -60,20 +59,32 @@ TEST(Picture, ShowsASmallBallInALargeWorldWhereItIs) {
   EXPECT_EQ(color_at(image, {at.x, at.y + 12.0}), dark::kWorld);
 }
 
-// Property: every layer but the hidden one is drawn; hiding one changes the picture.
-TEST(Picture, HidesWhatIsToBeHidden) {
+/// A picture with something on every layer: the first track is lost in it, the last is tentative.
+cv::Mat full_picture(const Layers& layers) {
   SyntheticScene synthetic;
+  VideoOptions options;
+  options.layers = layers;
+  Picture picture(options, synthetic.drawing());
+  cv::Mat image;
   VideoFrame frame;
-  for (int i = 0; i < 30; ++i) frame = synthetic.next();
-  const cv::Mat all = draw(VideoOptions{}, synthetic.drawing(), frame);
-  for (const Layer layer :
-       {Layer::kGrid, Layer::kFieldOfView, Layer::kGround, Layer::kRails, Layer::kTruth,
-        Layer::kGates, Layer::kResiduals, Layer::kDetections, Layer::kClutter, Layer::kTracks,
-        Layer::kLabels, Layer::kHud, Layer::kLegend}) {
-    VideoOptions options;
-    options.layers.hide(layer);
-    const cv::Mat rest = draw(options, synthetic.drawing(), frame);
-    EXPECT_GT(cv::norm(all, rest, cv::NORM_L1), 0.0) << static_cast<int>(layer);
+  for (int i = 0; i < 60; ++i) picture.remember(frame = synthetic.next());
+  frame = synthetic.next();
+  std::vector<TrackEstimate>& tracks = frame.panels[0].tracks.tracks;
+  tracks.erase(tracks.begin());
+  tracks.back().status = TrackStatus::kTentative;
+  picture.draw(frame, image);
+  return image;
+}
+
+// Property: every layer shows something, and hiding it changes the picture.
+TEST(Picture, HidesWhatIsToBeHidden) {
+  Layers all;
+  for (const auto& [name, layer] : enum_names(Layer{})) all.show(layer);
+  const cv::Mat whole = full_picture(all);
+  for (const auto& [name, layer] : enum_names(Layer{})) {
+    Layers rest = all;
+    rest.hide(layer);
+    EXPECT_GT(cv::norm(whole, full_picture(rest), cv::NORM_L1), 0.0) << name;
   }
 }
 
@@ -100,6 +111,42 @@ TEST(Picture, DrawsEstimatesThatAreAliveTogetherInDifferentColours) {
   EXPECT_EQ(color_at(image, {other_at.x + 10.0, other_at.y}), kTrackColors[1]);
 }
 
+// Derived: the wind is asked for above the ground only, at places that stand still in the world.
+TEST(Picture, AsksForTheWindWhereThereIsAir) {
+  SceneDrawing scene;
+  scene.world = Rectangle{Vec2(0.0, -10.0), Vec2(100.0, 50.0)};
+  scene.ground = Ground{};
+  scene.strongest_wind = 5.0;
+  std::vector<Vec2> places;
+  scene.wind = [&](const Vec2& place, double) {
+    places.push_back(place);
+    return Vec2(5.0, 0.0);
+  };
+  draw(VideoOptions{}, scene, ball_at({50.0, 10.0}));
+  EXPECT_GT(places.size(), 10u);
+  EXPECT_LT(places.size(), 100u);
+  for (const Vec2& place : places) EXPECT_GT(place.y(), 0.0);
+}
+
+// Derived: in a close-up 10 m wide the target is in the middle, and so is a ball of 2 m that is
+// drawn as large as it is.
+TEST(Picture, ShowsItsTargetInTheMiddleOfACloseUp) {
+  VideoOptions options;
+  SceneDrawing scene = one_ball();
+  scene.objects[0].outline = {Outline::Shape::kDisc, 2.0, 2.0};
+  for (const auto& [name, corner] : enum_names(VideoCorner{})) {
+    options.close_up = {.target = 0, .width = 10.0, .corner = corner};
+    cv::Mat image;
+    Picture picture(options, scene);
+    picture.draw(ball_at({61.0, 43.0}), image);
+    const Viewport& area = picture.layout().close_up;
+    const Pixel middle{area.left + 0.5 * area.width, area.top + 0.5 * area.height};
+    const double scale = area.width / 10.0;
+    EXPECT_EQ(color_at(image, {middle.x, middle.y + 0.8 * scale}), dark::kTruth) << name;
+    EXPECT_EQ(color_at(image, {middle.x + 1.3 * scale, middle.y + 0.3 * scale}), dark::kWorld);
+  }
+}
+
 // Property: objects and tracks beyond any measure break nothing.
 TEST(Picture, SurvivesPositionsThatAreNotInThePicture) {
   SceneDrawing scene = one_ball();
@@ -114,7 +161,8 @@ TEST(Picture, SurvivesPositionsThatAreNotInThePicture) {
                                        Outline::Shape::kBalloon, Outline::Shape::kDrone}) {
       scene.objects[0].outline = {shape, 25.0, 3.0};
       VideoFrame frame = ball_at({bad, 50.0});
-      frame.wind = {{Vec2(bad, bad), Vec2(bad, bad)}};
+      scene.wind = [bad](const Vec2&, double) { return Vec2(bad, bad); };
+      scene.strongest_wind = 1.0;
       TrackEstimate track;
       track.id = 1;
       track.label = scene.title;
@@ -147,10 +195,9 @@ TEST(Picture, IsAFunctionOfItsFrames) {
 // Property: a followed object stays in the middle of the panel.
 TEST(Picture, KeepsAFollowedObjectInTheMiddle) {
   VideoOptions options;
-  options.follow = 0;
-  options.follow_width = 30.0;
+  options.shots = {{.at = 0.0, .target = 0, .center = {}, .width = 30.0}};
   const SceneDrawing scene = one_ball();
-  const Viewport panel = lay_out(options, scene, Style{}).panels.front();
+  const Viewport panel = Picture(options, scene).layout().panels.front();
   for (const double x : {10.0, 150.0}) {
     const cv::Mat image = draw(options, scene, ball_at({x, 33.3}));
     const Pixel middle{panel.left + 0.5 * panel.width, panel.top + 0.5 * panel.height};
@@ -158,17 +205,28 @@ TEST(Picture, KeepsAFollowedObjectInTheMiddle) {
   }
 }
 
+// Property: the plot of compared filters takes the place that a grid of panels leaves over.
+TEST(Layout, PutsThePlotWhereThereIsRoom) {
+  SceneDrawing scene = one_ball();
+  scene.panels.resize(3);
+  const Layout layout = lay_out(VideoOptions{}, scene, Style{}, 40.0);
+  EXPECT_NEAR(layout.plots.width, layout.panels[0].width, 1e-9);
+  scene.panels.resize(2);
+  EXPECT_EQ(lay_out(VideoOptions{}, scene, Style{}, 40.0).plots.width, 1280.0);
+}
+
 // Property: panels lie side by side or above each other, inside the picture, without overlap.
 TEST(Layout, GivesEveryComparedFilterAPanelOfItsOwn) {
   for (int count = 2; count <= 6; ++count) {
     SceneDrawing scene = one_ball();
     scene.panels.resize(static_cast<std::size_t>(count));
-    const Layout layout = lay_out(VideoOptions{}, scene, Style{});
+    const Layout layout = lay_out(VideoOptions{}, scene, Style{}, 40.0);
     ASSERT_EQ(layout.panels.size(), static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
       const Viewport& panel = layout.panels[static_cast<std::size_t>(i)];
       EXPECT_GE(panel.top, layout.hud.bottom());
-      EXPECT_LE(panel.bottom(), layout.plot.top + 1e-9);
+      EXPECT_LE(panel.bottom(), layout.legend.top + 1e-9);
+      EXPECT_EQ(overlap(panel, layout.plots), 0.0);
       EXPECT_LE(panel.right(), 1280.0 + 1e-9);
       EXPECT_GT(panel.height, 100.0);
       for (int k = 0; k < i; ++k)

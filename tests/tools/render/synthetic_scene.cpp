@@ -43,7 +43,10 @@ SyntheticScene::SyntheticScene(int panels)
                     {point_on_slope(-20.0), point_on_slope(180.0)}};
   drawing_.sensors = {{"camera",
                        kRate,
-                       {Vec2(-5.0, -3.0), Vec2(165.0, -3.0), Vec2(165.0, 70.0), Vec2(-5.0, 70.0)}}};
+                       {Vec2(-5.0, -3.0), Vec2(165.0, -3.0), Vec2(165.0, 70.0), Vec2(-5.0, 70.0)},
+                       true}};
+  drawing_.wind = [](const Vec2& place, double) { return Vec2(3.0 + 0.05 * place.y(), 0.0); };
+  drawing_.strongest_wind = 6.0;
   const auto add = [&](const std::string& name, const std::string& regime, Outline outline) {
     drawing_.objects.push_back(
         {static_cast<ObjectId>(drawing_.objects.size()), name, regime, regime, 0, outline});
@@ -159,6 +162,9 @@ VideoFrame SyntheticScene::next() {
         continue;
       }
       shown.tracks.tracks.push_back(filter->second.track);
+      const double error = (filter->second.track.position - object.position).norm();
+      if (filter->second.track.status != TrackStatus::kTentative)
+        shown.pairings.push_back({object.id, filter->second.track.id, error});
       squared_error_[panel] += (filter->second.track.position - object.position).squaredNorm();
       ++errors_[panel];
     }

@@ -51,16 +51,5 @@ TEST(View, BoundsFinitePointsOnly) {
   EXPECT_DOUBLE_EQ(bounds->max.y(), 5.0);
 }
 
-// Property: wind is sampled inside the picture and above the ground.
-TEST(View, SamplesTheWindAboveTheGround) {
-  SceneDrawing scene;
-  scene.world = Rectangle{Vec2(0.0, -10.0), Vec2(100.0, 50.0)};
-  scene.ground = Ground{};
-  const std::vector<Vec2> points = wind_points(VideoOptions{}, scene);
-  EXPECT_GT(points.size(), 10u);
-  EXPECT_LT(points.size(), 100u);
-  for (const Vec2& point : points) EXPECT_GT(point.y(), 0.0);
-}
-
 }  // namespace
 }  // namespace ghtrack::render

@@ -1,0 +1,90 @@
+#include "tools/film/running_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ghtrack::film {
+namespace {
+
+/// Points with the ids of what is there.
+struct Places {
+  std::vector<int> ids;
+  std::vector<Vec2> positions;
+
+  void add(int id, const Vec2& position) {
+    ids.push_back(id);
+    positions.push_back(position);
+  }
+  std::optional<Vec2> find(int id) const {
+    const auto found = std::find(ids.begin(), ids.end(), id);
+    if (found == ids.end()) return std::nullopt;
+    return positions[static_cast<std::size_t>(found - ids.begin())];
+  }
+};
+
+/// Everyone but those for whom `is_taken(id)`.
+template <class IsTaken>
+Places without(const Places& places, IsTaken is_taken) {
+  Places rest;
+  for (std::size_t i = 0; i < places.ids.size(); ++i)
+    if (!is_taken(places.ids[i])) rest.add(places.ids[i], places.positions[i]);
+  return rest;
+}
+
+void append(const Places& objects, const Places& tracks, const GospaResult& result,
+            std::vector<render::Pairing>& pairings) {
+  for (const PointMatch& match : result.matches)
+    pairings.push_back({objects.ids[static_cast<std::size_t>(match.truth)],
+                        tracks.ids[static_cast<std::size_t>(match.track)], match.distance});
+}
+
+}  // namespace
+
+void RunningScore::add(const TruthSnapshot& truth, const TrackSnapshot& snapshot) {
+  Places objects;
+  for (const TruthState& object : truth.objects) objects.add(object.id, object.position);
+  Places tracks;
+  for (const TrackEstimate& track : snapshot.tracks)
+    if (track.status != TrackStatus::kTentative) tracks.add(track.id, track.position);
+
+  std::vector<render::Pairing> kept;
+  for (render::Pairing pairing : pairings_) {
+    const auto object = objects.find(pairing.object);
+    const auto track = tracks.find(pairing.track);
+    if (!object || !track) continue;
+    pairing.distance = (*object - *track).norm();
+    if (pairing.distance < options_.cutoff) kept.push_back(pairing);
+  }
+  pairings_ = std::move(kept);
+  if (objects.ids.empty() && tracks.ids.empty()) return;
+
+  const GospaResult all = ghtrack::gospa(objects.positions, tracks.positions, options_);
+  ++instants_;
+  gospa_sum_ += all.gospa;
+  for (const PointMatch& match : all.matches) square_sum_ += match.distance * match.distance;
+  errors_ += static_cast<int>(all.matches.size());
+
+  if (pairings_.empty()) return append(objects, tracks, all, pairings_);
+  const auto is_paired = [&](int render::Pairing::*member) {
+    return [this, member](int id) {
+      return std::any_of(pairings_.begin(), pairings_.end(),
+                         [&](const render::Pairing& pairing) { return pairing.*member == id; });
+    };
+  };
+  const Places free_objects = without(objects, is_paired(&render::Pairing::object));
+  const Places free_tracks = without(tracks, is_paired(&render::Pairing::track));
+  append(free_objects, free_tracks,
+         ghtrack::gospa(free_objects.positions, free_tracks.positions, options_), pairings_);
+}
+
+std::optional<double> RunningScore::gospa() const {
+  if (instants_ == 0) return std::nullopt;
+  return gospa_sum_ / instants_;
+}
+
+std::optional<double> RunningScore::rmse() const {
+  if (errors_ == 0) return std::nullopt;
+  return std::sqrt(square_sum_ / errors_);
+}
+
+}  // namespace ghtrack::film

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sim/truth.hpp"
+#include "tools/metrics/gospa.hpp"
+#include "tools/render/video.hpp"
+#include "tracker/track.hpp"
+
+namespace ghtrack::film {
+
+/// How well a tracker has done so far, for those who watch the run. Only confirmed and coasting
+/// tracks count.
+class RunningScore {
+ public:
+  explicit RunningScore(const GospaOptions& options) : options_(options) {}
+
+  /// Compares what the tracker says with the truth of that instant.
+  void add(const TruthSnapshot& truth, const TrackSnapshot& tracks);
+
+  /// Mean GOSPA of the instants with a target or a track [m].
+  std::optional<double> gospa() const;
+
+  /// RMSE of the positions of tracks that are within GOSPA's cut-off of their target [m].
+  std::optional<double> rmse() const;
+
+  /// Who follows whom at the last instant. A pair stays together as long as it is within the
+  /// cut-off, as in CLEAR MOT; the rest is paired as GOSPA does.
+  const std::vector<render::Pairing>& pairings() const { return pairings_; }
+
+ private:
+  GospaOptions options_;
+  double gospa_sum_ = 0.0;  // [m]
+  int instants_ = 0;
+  double square_sum_ = 0.0;  // [m²]
+  int errors_ = 0;
+  std::vector<render::Pairing> pairings_;
+};
+
+}  // namespace ghtrack::film

@@ -1,0 +1,120 @@
+#include "tools/film/scene_drawing.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "sensors/sensor.hpp"
+#include "sensors/view_geometry.hpp"
+#include "sim/regimes/rail_line.hpp"
+#include "sim/regimes/train.hpp"
+#include "tools/pipeline/simulation.hpp"
+
+namespace ghtrack::film {
+namespace {
+
+/// The line of a train's rails, fine enough to look smooth.
+std::vector<Vec2> rails_of(const Train& train) {
+  constexpr double kSpacing = 5.0;  // [m]
+  const RailLine line(train.track, train.position, train.heading_deg * std::numbers::pi / 180.0);
+  const auto pieces = static_cast<int>(std::clamp(line.length() / kSpacing, 1.0, 2000.0));
+  std::vector<Vec2> rails;
+  for (int i = 0; i <= pieces; ++i) {
+    rails.push_back(line.at(line.length() * i / pieces).position);
+  }
+  return rails;
+}
+
+/// The strongest wind at a few places and times; arrows need no more.
+double strongest_wind(const Wind& wind, const render::Rectangle& area, double duration) {
+  constexpr int kPlaces = 4;  // along each axis
+  constexpr int kInstants = 8;
+  double strongest = 0.0;
+  for (int instant = 0; instant < kInstants; ++instant)
+    for (int column = 0; column < kPlaces; ++column)
+      for (int row = 0; row < kPlaces; ++row) {
+        const Vec2 share((column + 0.5) / kPlaces, (row + 0.5) / kPlaces);
+        const Vec2 place = area.min + share.cwiseProduct(area.max - area.min);
+        strongest = std::max(strongest, wind.at(place, duration * instant / kInstants).norm());
+      }
+  return strongest;
+}
+
+std::optional<ObjectId> object_named(const World& world, const std::string& name) {
+  for (const ObjectInfo& object : world.objects()) {
+    if (object.name == name) return object.id;
+  }
+  return std::nullopt;
+}
+
+std::optional<ObjectId> object_named(const World& world, const std::optional<std::string>& name) {
+  return name ? object_named(world, *name) : std::nullopt;
+}
+
+}  // namespace
+
+render::VideoOptions video_options(const WorldScene& scene, const World& world,
+                                   const std::filesystem::path& path) {
+  const VideoConfig config = scene.video.value_or(VideoConfig{});
+  render::VideoOptions options;
+  options.path = path;
+  options.width = config.size[0];
+  options.height = config.size[1];
+  options.fps = config.fps;
+  options.slow = config.slow;
+  options.from = config.from;
+  options.to = config.to;
+  options.layers = render::Layers(config.show);
+  if (const auto target = object_named(world, config.follow)) {
+    options.shots = {{.at = 0.0, .target = target, .center = {}, .width = config.follow_width}};
+  }
+  for (const VideoShot& shot : config.shots) {
+    options.shots.push_back({shot.at, object_named(world, shot.target), shot.center, shot.width});
+  }
+  options.glide = config.glide;
+  if (config.close_up) {
+    if (const auto target = object_named(world, config.close_up->target)) {
+      options.close_up = {*target, config.close_up->width, config.close_up->corner};
+    }
+  }
+  return options;
+}
+
+render::SceneDrawing drawing_of(const WorldScene& scene, const World& world,
+                                std::vector<render::PanelDrawing> panels,
+                                const std::function<void()>& on_sample) {
+  render::SceneDrawing drawing;
+  drawing.panels = std::move(panels);
+  drawing.title = scene.name;
+  drawing.seed = scene.seed;
+  drawing.duration = scene.duration;
+  for (const Target& target : scene.targets) {
+    if (const auto* train = std::get_if<Train>(&target.motion)) {
+      drawing.rails.push_back(rails_of(*train));
+    }
+  }
+  drawing.objects = world.objects();
+  if (scene.video && scene.video->region.size() == 2) {
+    drawing.world = render::Rectangle{scene.video->region[0], scene.video->region[1]};
+  } else {
+    drawing.world = render::bounding_rectangle(places_visited(scene, on_sample));
+  }
+  drawing.ground = scene.environment.ground;
+  drawing.walls = scene.environment.walls;
+  drawing.boxes = scene.environment.boxes;
+  for (const SensorConfig& sensor : scene.sensors) {
+    drawing.sensors.push_back({.name = sensor.name,
+                               .rate = sensor.rate,
+                               .field_of_view = outline_of(sensor.view()),
+                               .has_clutter = sensor.clutter > 0.0});
+  }
+  const Wind& wind = world.environment().wind();
+  drawing.wind = [&wind](const Vec2& place, double time) { return wind.at(place, time); };
+  drawing.strongest_wind = strongest_wind(wind, render::world_of(drawing), scene.duration);
+  return drawing;
+}
+
+}  // namespace ghtrack::film

@@ -1,0 +1,109 @@
+#include "tools/render/hud.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "tools/render/text.hpp"
+
+namespace ghtrack::render {
+
+namespace {
+
+constexpr std::u32string_view kBetween = U"    ";
+
+std::u32string scores_of(const PanelFrame& panel) {
+  std::u32string scores;
+  if (panel.rmse) scores += U"RMSE " + number_text("%.2f m", *panel.rmse);
+  if (panel.gospa)
+    scores += (scores.empty() ? U"" : U"   ") + (U"GOSPA " + number_text("%.2f m", *panel.gospa));
+  return scores;
+}
+
+/// Counts and scores of a single tracker.
+std::u32string facts_of(const VideoFrame& frame) {
+  std::u32string facts = U"scan " + count_text(frame.scans, 3);
+  if (frame.panels.size() != 1) return facts;
+  const PanelFrame& panel = frame.panels.front();
+  const auto count = [&](TrackStatus status) {
+    return static_cast<std::size_t>(
+        std::count_if(panel.tracks.tracks.begin(), panel.tracks.tracks.end(),
+                      [status](const TrackEstimate& track) { return track.status == status; }));
+  };
+  const auto add = [&](std::u32string_view name, std::size_t number) {
+    facts += kBetween;
+    facts += name;
+    facts += count_text(number, 2);
+  };
+  add(U"objects ", frame.truth.objects.size());
+  add(U"confirmed ", count(TrackStatus::kConfirmed));
+  add(U"coasting ", count(TrackStatus::kCoasting));
+  add(U"tentative ", count(TrackStatus::kTentative));
+  return facts;
+}
+
+std::u32string facts_of(const SceneDrawing& scene, const VideoOptions& options) {
+  std::u32string facts = U"seed " + drawable(std::to_string(scene.seed));
+  for (const SensorDrawing& sensor : scene.sensors)
+    facts += U"    " + drawable(sensor.name, 24) + U" " + number_text("%.3g Hz", sensor.rate);
+  if (options.slow > 1.0) facts += U"    " + number_text("%.3g× slow motion", options.slow);
+  if (options.slow < 1.0) facts += U"    " + number_text("%.3g× faster", 1.0 / options.slow);
+  return facts;
+}
+
+}  // namespace
+
+void draw_hud(Canvas& canvas, const Viewport& area, const VideoOptions& options,
+              const SceneDrawing& scene, const VideoFrame& frame, const Style& style,
+              const Typefaces& fonts) {
+  const double margin = style.length(16);
+  const double first = area.top + style.length(25);
+  const double second = area.top + style.length(45);
+  const int large = style.letters(20);
+  const int small = style.letters(15);
+  const double right = area.right() - margin;
+
+  /// Writes something at the right edge, and something else as far as there is room.
+  const auto line = [&](double baseline, const Font& font, int letters, const std::u32string& text,
+                        Color color, const std::u32string& at_right, double room_at_right) {
+    canvas.text(font, at_right, letters, {right, baseline}, color, Canvas::Align::kRight);
+    const double room = area.width - 3.0 * margin - room_at_right;
+    canvas.text(font, font.fitted(text, letters, static_cast<int>(std::max(0.0, room))), letters,
+                {area.left + margin, baseline}, color);
+  };
+  const std::u32string time = number_text("%.2f s", frame.time);
+  const double time_room = fonts.bold.width(U"00000.00 s", large);
+  line(first, fonts.bold, large, drawable(scene.title), dark::kText, time, time_room);
+  if (frame.panels.size() == 1)
+    canvas.text(fonts.regular, scores_of(frame.panels.front()), small,
+                {right - time_room - margin, first}, dark::kText, Canvas::Align::kRight);
+  const std::u32string facts = facts_of(frame);
+  line(second, fonts.regular, small, facts_of(scene, options), dark::kMutedText, facts,
+       fonts.regular.width(facts, small));
+}
+
+void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawing,
+                 const PanelFrame& panel, Color color, const Style& style, const Typefaces& fonts) {
+  const int letters = style.letters(16);
+  const int small = style.letters(14);
+  const double gap = style.length(12);
+  const double baseline = area.top + 0.5 * area.height + 0.36 * letters;
+  double x = area.left + gap;
+  canvas.disc({x + style.length(5), area.top + 0.5 * area.height}, style.length(5), color);
+  x += style.length(18);
+
+  const std::u32string scores = scores_of(panel);
+  const double right = area.right() - gap - fonts.regular.width(scores, letters);
+  canvas.text(fonts.regular, scores, letters, {area.right() - gap, baseline}, dark::kText,
+              Canvas::Align::kRight);
+  const auto write = [&](const Font& font, int height, const std::string& text, Color ink) {
+    const double room = right - gap - x;
+    if (room < 3.0 * height) return;
+    const std::u32string fitted = font.fitted(drawable(text), height, static_cast<int>(room));
+    canvas.text(font, fitted, height, {x, baseline}, ink);
+    x += font.width(fitted, height) + gap;
+  };
+  write(fonts.bold, letters, drawing.name, dark::kText);
+  write(fonts.regular, small, drawing.gains, dark::kMutedText);
+}
+
+}  // namespace ghtrack::render
