@@ -23,6 +23,7 @@
 #include "tools/ranks/ranks.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/report/report.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -110,6 +111,7 @@ void publish(const Campaign& campaign, const Results& results, const fs::path& f
   write_run_table(campaign, results, folder / "runs.csv");
   write_file(folder / "comparison.json", to_json(comparison).dump(2) + "\n");
   write_file(folder / "comparison.csv", comparison_csv(comparison));
+  write_file(folder / "report.html", comparison_report(comparison));
   fmt::print("{}", to_table(comparison));
   if (!manners.quiet) fmt::print(stderr, "results in {}\n", folder.string());
 }

@@ -26,6 +26,7 @@ data to_mustache(const nlohmann::json& value) {
     case nlohmann::json::value_t::boolean:
       return data(value.get<bool>());
     case nlohmann::json::value_t::string:
+      if (value.get_ref<const std::string&>().empty()) return data(data::type::bool_false);
       return data(value.get<std::string>());
     default:
       return data(value.dump());
@@ -38,6 +39,10 @@ std::string filled(std::string_view mustache, const nlohmann::json& values) {
   kainjow::mustache::mustache page{std::string(mustache)};
   if (!page.is_valid()) throw std::invalid_argument("template: " + page.error_message());
   return page.render(to_mustache(values));
+}
+
+std::string escaped(std::string_view text) {
+  return kainjow::mustache::html_escape<std::string>(std::string(text));
 }
 
 std::string json_for_script(const nlohmann::json& values) {

@@ -12,6 +12,9 @@ namespace ghtrack::html {
 /// @throws std::invalid_argument for a template that is no Mustache
 std::string filled(std::string_view mustache, const nlohmann::json& values);
 
+/// Any text as the content of an element or of a quoted attribute.
+std::string escaped(std::string_view text);
+
 /// JSON that may stand inside a <script> element: `<` is written as an escape.
 std::string json_for_script(const nlohmann::json& values);
 

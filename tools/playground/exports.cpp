@@ -22,15 +22,17 @@ constexpr int kMostPoints = 100;
 using Column = std::array<double, kMostPoints>;
 
 struct Answer {
-  Gains gains;
   Column truth, z, x_pred, dx_pred, residual, x, dx;
   double rmse, measurement_rmse, mean_absolute_innovation;
 };
 
-Answer answer;  // NOLINT: the module's memory is how WebAssembly returns more than a number
+// NOLINTBEGIN: the module's memory is how WebAssembly returns more than a number.
+Gains gains;
+Answer answer;
+// NOLINTEND
 
 void follow(const GeneratedSeries& series, std::uint64_t seed, const Kinematics<1>& guess) {
-  GainFilter<1> filter(answer.gains, kInterval, guess);
+  GainFilter<1> filter(gains, kInterval, guess);
   double squared = 0.0;
   double squared_noise = 0.0;
   double innovations = 0.0;
@@ -69,7 +71,7 @@ extern "C" {
 [[clang::export_name("run")]] void run_series(unsigned seed, int points, double start, double rate,
                                               double acceleration, double noise, double x0,
                                               double dx0, double g, double h, double k) {
-  answer.gains = k > 0.0 ? Gains::of_ghk(g, h, k) : Gains::of_gh(g, h);
+  gains = k > 0.0 ? Gains::of_ghk(g, h, k) : Gains::of_gh(g, h);
   Kinematics<1> guess;
   guess.position[0] = x0;
   guess.velocity[0] = dx0;
@@ -97,36 +99,28 @@ extern "C" {
 
 /// The broken stability condition as a C string; null for stable gains.
 [[clang::export_name("violated")]] const char* violated() {
-  const auto condition = violated_inequality(answer.gains);
+  const auto condition = violated_inequality(gains);
   return condition ? condition->data() : nullptr;
 }
 [[clang::export_name("damping")]] const char* damping_name() {
-  return to_string(damping(answer.gains)).data();
+  return to_string(damping(gains)).data();
 }
-[[clang::export_name("damping_ratio")]] double ratio() { return damping_ratio(answer.gains); }
+[[clang::export_name("damping_ratio")]] double ratio() { return damping_ratio(gains); }
 
 // The rest is defined for stable gains only: ask violated() first.
-[[clang::export_name("settling_updates")]] double settling() {
-  return settling_updates(answer.gains);
-}
-[[clang::export_name("vrf_x")]] double vrf_x() {
-  return variance_reduction(answer.gains, kInterval).x;
-}
-[[clang::export_name("vrf_dx")]] double vrf_dx() {
-  return variance_reduction(answer.gains, kInterval).dx;
-}
+[[clang::export_name("settling_updates")]] double settling() { return settling_updates(gains); }
+[[clang::export_name("vrf_x")]] double vrf_x() { return variance_reduction(gains, kInterval).x; }
+[[clang::export_name("vrf_dx")]] double vrf_dx() { return variance_reduction(gains, kInterval).dx; }
 [[clang::export_name("vrf_prediction")]] double vrf_prediction() {
-  return variance_reduction(answer.gains, kInterval).prediction;
+  return variance_reduction(gains, kInterval).prediction;
 }
 /// Behind the first derivative that the filter does not carry, if that is 1 and constant.
-[[clang::export_name("lag_x")]] double lag_x() {
-  return steady_lag(answer.gains, kInterval, 1.0).x;
-}
+[[clang::export_name("lag_x")]] double lag_x() { return steady_lag(gains, kInterval, 1.0).x; }
 [[clang::export_name("lag_prediction")]] double lag_prediction() {
-  return steady_lag(answer.gains, kInterval, 1.0).prediction;
+  return steady_lag(gains, kInterval, 1.0).prediction;
 }
 [[clang::export_name("predicted_rmse")]] double predicted(double noise, double next_derivative) {
-  return predicted_rmse(answer.gains, noise, kInterval, next_derivative);
+  return predicted_rmse(gains, noise, kInterval, next_derivative);
 }
 
 // The sources throw for arguments that the page does not pass, and the module has no unwinder: a

@@ -1,0 +1,170 @@
+#include "tools/report/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "tools/report/figures.hpp"
+
+namespace ghtrack::report {
+namespace {
+
+using Json = nlohmann::json;
+using RowsByFilter = std::map<std::size_t, const ComparisonRow*>;
+
+constexpr std::size_t kMostObjects = 60;
+
+std::string number(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? fmt::format("{:.3g}", *value) : "";
+}
+
+std::string range(const std::optional<Interval>& interval) {
+  return interval ? fmt::format("{:.3g} to {:.3g}", interval->low, interval->high) : "";
+}
+
+Json sort_key(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? Json(fmt::format("{:.6g}", *value)) : Json("");
+}
+
+std::string css_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kBest:
+      return "best";
+    case Verdict::kTied:
+      return "tied";
+    case Verdict::kNone:
+    case Verdict::kWorse:
+      break;
+  }
+  return "";
+}
+
+/// "0.318 ± 0.004, best; predicted 0.31": what one filter did.
+Json value_cell(const ComparisonRow* row) {
+  if (row == nullptr) {
+    return {{"text", ""}, {"half", ""}, {"verdict", ""},
+            {"css", ""},  {"sort", ""}, {"predicted", ""}};
+  }
+  const std::string half =
+      row->ci95 ? fmt::format("±{:.1g}", 0.5 * (row->ci95->high - row->ci95->low)) : "";
+  return {{"text", number(row->mean)},       {"half", half},
+          {"verdict", css_of(row->verdict)}, {"css", css_of(row->verdict)},
+          {"sort", sort_key(row->mean)},     {"predicted", number(row->predicted)}};
+}
+
+Json value_cells(const std::vector<std::size_t>& filters, const RowsByFilter& rows) {
+  Json values = Json::array();
+  for (const std::size_t filter : filters) {
+    values.push_back(value_cell(rows.contains(filter) ? rows.at(filter) : nullptr));
+  }
+  return values;
+}
+
+std::optional<double> bound_of(const RowsByFilter& rows) { return rows.begin()->second->bound; }
+
+Json named(const Comparison& comparison, const std::vector<std::size_t>& filters) {
+  Json names = Json::array();
+  for (const std::size_t filter : filters) {
+    names.push_back({{"name", comparison.filters[filter]}, {"css", filter_class(filter)}});
+  }
+  return names;
+}
+
+std::vector<std::size_t> filters_in(const Comparison& comparison, std::size_t cell) {
+  std::set<std::size_t> filters;
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.cell == cell) filters.insert(row.filter);
+  }
+  return {filters.begin(), filters.end()};
+}
+
+}  // namespace
+
+std::string cell_id(std::size_t cell) { return fmt::format("scene-{}", cell + 1); }
+
+nlohmann::json filters_of(const Comparison& comparison, std::size_t cell) {
+  return named(comparison, filters_in(comparison, cell));
+}
+
+nlohmann::json summary_tables(const Comparison& comparison) {
+  std::map<std::pair<std::size_t, std::string>, RowsByFilter> lines;
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.metric != Metric::kRmsePosition || row.regime.empty() || !row.object.empty()) continue;
+    lines[{row.cell, row.regime}][row.filter] = &row;
+  }
+  std::map<std::vector<std::size_t>, Json> tables;
+  for (std::size_t i = 0; i < comparison.cells.size(); ++i) {
+    const ComparedCell& cell = comparison.cells[i];
+    const std::vector<std::size_t> filters = filters_in(comparison, i);
+    for (const std::string& regime : cell.regimes) {
+      const auto line = lines.find({i, regime});
+      if (line == lines.end()) continue;
+      Json& rows = tables[filters];
+      rows.push_back({{"scene", cell.scene},
+                      {"sweep", cell.sweep},
+                      {"href", "#" + cell_id(i)},
+                      {"regime", regime},
+                      {"values", value_cells(filters, line->second)},
+                      {"bound", number(bound_of(line->second))},
+                      {"bound_sort", sort_key(bound_of(line->second))}});
+    }
+  }
+  Json all = Json::array();
+  for (auto& [filters, rows] : tables) {
+    all.push_back({{"filters", named(comparison, filters)}, {"rows", std::move(rows)}});
+  }
+  return all;
+}
+
+nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
+  Json rows = Json::array();
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.cell != cell || !row.object.empty()) continue;
+    const MetricInfo& metric = info(row.metric);
+    std::string difference = number(row.difference);
+    if (row.difference_ci95) difference += fmt::format(" ({})", range(row.difference_ci95));
+    rows.push_back({{"subject", row.regime.empty() ? "whole scene" : row.regime},
+                    {"metric", metric.title},
+                    {"unit", metric.unit == "1" ? "" : metric.unit},
+                    {"filter", comparison.filters[row.filter]},
+                    {"mean", number(row.mean)},
+                    {"ci95", range(row.ci95)},
+                    {"predicted", number(row.predicted)},
+                    {"bound", number(row.bound)},
+                    {"difference", difference},
+                    {"verdict", to_string(row.verdict)},
+                    {"css", css_of(row.verdict)},
+                    {"runs", row.runs}});
+  }
+  return rows;
+}
+
+nlohmann::json object_table(const Comparison& comparison, std::size_t cell) {
+  std::vector<std::pair<std::pair<std::string, std::string>, RowsByFilter>> lines;
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.cell != cell || row.object.empty() || row.metric != Metric::kRmsePosition) continue;
+    const std::pair subject(row.regime, row.object);
+    if (lines.empty() || lines.back().first != subject) lines.push_back({subject, {}});
+    lines.back().second[row.filter] = &row;
+  }
+  const std::vector<std::size_t> filters = filters_in(comparison, cell);
+  Json rows = Json::array();
+  for (const auto& [subject, by_filter] : lines) {
+    if (rows.size() == kMostObjects) break;
+    rows.push_back({{"object", subject.second},
+                    {"regime", subject.first},
+                    {"values", value_cells(filters, by_filter)},
+                    {"bound", number(bound_of(by_filter))},
+                    {"bound_sort", sort_key(bound_of(by_filter))}});
+  }
+  const std::size_t left_out = lines.size() - rows.size();
+  return {{"filters", named(comparison, filters)},
+          {"rows", std::move(rows)},
+          {"left_out", left_out == 0 ? Json(nullptr) : Json(left_out)}};
+}
+
+}  // namespace ghtrack::report
