@@ -24,6 +24,13 @@ constexpr std::string_view to_string(TrackStatus status) {
   return "";
 }
 
+/// The latest update of a filter with designed gains.
+struct DesignedStep {
+  Gains gains;                                               // that it used
+  double interval = 1.0;                                     // T by which they were divided [s]
+  Eigen::Vector2d noise_velocity = Eigen::Vector2d::Zero();  // 1-sigma noise of the velocity [m/s]
+};
+
 /// What the tracker says of one target after a scan. World frame, SI units.
 struct TrackEstimate {
   int id = 0;  // counts from 1 in the order of birth; never used twice
@@ -41,12 +48,12 @@ struct TrackEstimate {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // predicted, of the position's error [m²]
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of the prior's residual [m²]
 
-  // What the filter's closed forms say of its error: the noise that remains when the target moves
-  // as the filter assumes. Where the target does not, a filter with designed gains lags behind; a
-  // Kalman filter counts manoeuvres as noise.
+  // What the filter says of the noise in its estimate: what remains of the error when the target
+  // moves as the filter assumes. A Kalman filter counts manoeuvres as noise; one with designed
+  // gains lags behind them.
   Gains gains;                                            // in the steady state
   Eigen::Vector2d noise_sigma = Eigen::Vector2d::Zero();  // [m]
-  bool lags = false;                                      // noise_sigma tells the noise alone
+  std::optional<DesignedStep> designed;
 };
 
 /// All tracks after one scan.

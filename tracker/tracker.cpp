@@ -122,6 +122,14 @@ Track begin_track(const TrackerDesign& design, int id, const Scan& scan, std::si
   return track;
 }
 
+std::optional<DesignedStep> designed_step(const Filter& filter) {
+  const GainFilter<2>* const designed = designed_gain_filter(filter);
+  if (designed == nullptr) return std::nullopt;
+  return DesignedStep{.gains = designed->used_gains(),
+                      .interval = designed->used_interval(),
+                      .noise_velocity = designed->noise_velocity_sigma()};
+}
+
 /// The filter of detections that nobody has classified.
 FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) {
   if (filters.empty()) return {};
@@ -251,7 +259,7 @@ TrackSnapshot snapshot(const TrackerState& state) {
          .innovation_covariance = track.innovation_covariance,
          .gains = steady_gains(track.filter),
          .noise_sigma = noise_sigma(track.filter),
-         .lags = designed_gain_filter(track.filter) != nullptr});
+         .designed = designed_step(track.filter)});
   }
   return result;
 }

@@ -2,10 +2,11 @@
 
 #include "sim/truth.hpp"
 #include "tracker/filters/kinematics.hpp"
+#include "tracker/track.hpp"
 
 namespace ghtrack {
 
-/// The error that a filter with given gains would have without measurement noise: its recurrence
+/// The error that a filter with designed gains would have without measurement noise: its recurrence
 /// on the truth itself. It is what remains of the error on average over the noise. Under a lasting
 /// acceleration it tends to the steady lag (1 − g) a T² / h; under one that changes it says how
 /// much of that lag has time to develop.
@@ -22,7 +23,7 @@ class ExpectedLag {
   void start(const TruthState& truth, double time);
 
   /// The lag at the next scan. @param measured  whether the filter used a measurement
-  Value advance(const TruthState& truth, double time, const Gains& gains, bool measured);
+  Value advance(const TruthState& truth, double time, const DesignedStep& step, bool measured);
 
  private:
   Kinematics<2> estimate_;

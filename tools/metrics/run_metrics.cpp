@@ -182,7 +182,7 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   if (const double speed = truth.velocity.norm(); speed > 0.0) {
     tally.lag -= error.dot(truth.velocity) / speed;
   }
-  if (track.lags) add_expected_lag(tally, truth, track, time);
+  if (track.designed) add_expected_lag(tally, truth, track, time);
   if (const auto squares = floor_ ? floor_->squared_errors(truth.id) : std::nullopt) {
     for (std::size_t i = 0; i < squares->size(); ++i) tally.floor_square[i] += (*squares)[i];
     ++tally.floor_count;
@@ -201,10 +201,11 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   }
 
   const auto usage = std::find_if(tally.usage.begin(), tally.usage.end(), [&](const Usage& u) {
-    return u.filter == track.filter && u.gains == track.gains && u.lags == track.lags;
+    return u.filter == track.filter && u.gains == track.gains &&
+           u.designed == track.designed.has_value();
   });
   if (usage == tally.usage.end()) {
-    tally.usage.push_back({track.filter, track.gains, track.lags, 1});
+    tally.usage.push_back({track.filter, track.gains, track.designed.has_value(), 1});
   } else {
     ++usage->scans;
   }
@@ -213,9 +214,10 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
 void RunMetrics::add_expected_lag(ObjectTally& tally, const TruthState& truth,
                                   const TrackEstimate& track, double time) const {
   const ExpectedLag::Value lag =
-      tally.expected_lag.advance(truth, time, track.gains, track.residual.has_value());
+      tally.expected_lag.advance(truth, time, *track.designed, track.residual.has_value());
   tally.predicted_square += lag.position.squaredNorm();
-  tally.squared_velocity_lag += lag.velocity.squaredNorm();
+  tally.predicted_velocity_square +=
+      track.designed->noise_velocity.squaredNorm() + lag.velocity.squaredNorm();
   tally.squared_prediction_lag += lag.prediction.squaredNorm();
   if (const double speed = truth.velocity.norm(); speed > 0.0) {
     tally.predicted_lag += lag.position.dot(truth.velocity) / speed;
@@ -232,16 +234,16 @@ void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) c
   ++tally.calm_scans;
 }
 
-/// The steady variance reduction of the leading gains, and the expected lag. The length of a
-/// residual with two independent, equal normal components is on average √(π/4) of its root mean
-/// square (Rayleigh).
+/// For the innovation: the steady variance reduction of the leading gains, and the expected lag.
+/// The length of a residual with two independent, equal normal components is on average √(π/4) of
+/// its root mean square (Rayleigh).
 void RunMetrics::predict_by_gains(const ObjectTally& tally, const Usage& leading,
                                   ObjectReport& report) const {
-  if (!leading.lags || leading.gains.order < 1 || !is_stable(leading.gains)) return;
+  if (!leading.designed || leading.gains.order < 1 || !is_stable(leading.gains)) return;
   const VarianceReduction reduction = variance_reduction(leading.gains, options_.period);
   const double noise = 2.0 * options_.sigma * options_.sigma;  // of both axes
   const auto scans = static_cast<double>(report.tracked);
-  report.predicted_velocity = std::sqrt(noise * reduction.dx + tally.squared_velocity_lag / scans);
+  report.predicted_velocity = std::sqrt(tally.predicted_velocity_square / scans);
   report.predicted_mai =
       std::sqrt(0.25 * std::numbers::pi *
                 (noise * (1.0 + reduction.prediction) + tally.squared_prediction_lag / scans));

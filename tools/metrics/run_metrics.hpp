@@ -57,7 +57,7 @@ struct ObjectReport {
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
   std::optional<double> floor_rmse;            // of the best of FloorFilters in the same scans [m]
   std::optional<double> rmse_velocity;         // [m/s]
-  std::optional<double> predicted_velocity;    // its prediction, by the leading gains [m/s]
+  std::optional<double> predicted_velocity;    // its prediction, of designed gains [m/s]
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
   std::optional<double> peak_error;            // max |e| [m]
@@ -65,7 +65,7 @@ struct ObjectReport {
   std::optional<double> predicted_lag;         // the same of the expected lag [m]
   std::optional<double> settling_time;         // see RunMetrics::kCalmScans [s]
   std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
-  std::optional<double> predicted_mai;         // its prediction, by the leading gains [m]
+  std::optional<double> predicted_mai;         // its prediction, of designed gains [m]
   std::optional<double> nees;                  // mean of eᵀ P⁻¹ e; 2 if consistent
   std::optional<Interval> nees_bounds95;
   std::optional<double> nis;  // mean of rᵀ S⁻¹ r; 2 if consistent
@@ -121,7 +121,7 @@ class RunMetrics {
   struct Usage {
     std::string filter;
     Gains gains;
-    bool lags = false;
+    bool designed = false;
     std::int64_t scans = 0;
   };
 
@@ -140,7 +140,7 @@ class RunMetrics {
     double lag = 0.0;
     double predicted_lag = 0.0;
     ExpectedLag expected_lag;
-    double squared_velocity_lag = 0.0;
+    double predicted_velocity_square = 0.0;  // variance and squared lag
     double squared_prediction_lag = 0.0;
     double first_time = 0.0;  // of its scans
     double calm_since = 0.0;

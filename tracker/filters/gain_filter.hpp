@@ -102,6 +102,8 @@ class GainFilter {
   /// The part of position_sigma() that measurement errors cause: what is left when the target moves
   /// exactly as the filter assumes.
   Vector noise_sigma() const { return noise_.xx.max(0.0).sqrt().matrix(); }
+  /// The same of velocity_sigma().
+  Vector noise_velocity_sigma() const { return noise_.vv.max(0.0).sqrt().matrix(); }
   /// Covariance of the residual of a measurement with this error at estimate() [m²].
   Matrix innovation_covariance(const Matrix& measurement) const {
     return measurement + Matrix(covariance_.xx.matrix().asDiagonal());

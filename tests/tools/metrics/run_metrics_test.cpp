@@ -105,7 +105,8 @@ StepRecord accelerating(double t) {
   TrackEstimate estimate = track(1, record.truth.objects[0].position);
   estimate.noise_sigma = {0.3, 0.0};
   estimate.gains = Gains::of_gh(0.5, 0.2);
-  estimate.lags = true;
+  estimate.designed =
+      DesignedStep{.gains = estimate.gains, .interval = 0.5, .noise_velocity = {0.3, 0.4}};
   estimate.detection = 0;
   estimate.residual = Vec2(0.1, 0.0);
   record.tracks.tracks = {estimate};
@@ -123,7 +124,7 @@ TEST(RunMetrics, AddsTheLagToThePrediction) {
   EXPECT_EQ(ball.gains, "g=0.5 h=0.2");
   EXPECT_NEAR(*ball.predicted_lag, 1.25, 0.01);
   const VarianceReduction noise = variance_reduction(Gains::of_gh(0.5, 0.2), 0.5);
-  EXPECT_NEAR(*ball.predicted_velocity, std::sqrt(0.02 * noise.dx + 4.0), 0.01);
+  EXPECT_NEAR(*ball.predicted_velocity, std::hypot(0.5, 2.0), 0.01);
   EXPECT_NEAR(*ball.predicted_mai,
               std::sqrt(0.25 * std::numbers::pi * (0.02 * (1.0 + noise.prediction) + 6.25)), 0.01);
 }
