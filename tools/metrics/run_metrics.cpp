@@ -36,6 +36,15 @@ std::optional<ObjectId> used_object(const TrackEstimate& track, const Observatio
   return origin;
 }
 
+/// The state of each object; null for one that is not there.
+std::vector<const TruthState*> states_by_id(const TruthSnapshot& truth, std::size_t objects) {
+  std::vector<const TruthState*> states(objects, nullptr);
+  for (const TruthState& state : truth.objects) {
+    states.at(static_cast<std::size_t>(state.id)) = &state;
+  }
+  return states;
+}
+
 }  // namespace
 
 RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors) {
@@ -60,10 +69,7 @@ RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions&
 
 void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& observation) {
   if (floor_) floor_->add_observation(truth, observation);
-  std::vector<const TruthState*> state_of(tallies_.size(), nullptr);
-  for (const TruthState& state : truth.objects) {
-    state_of.at(static_cast<std::size_t>(state.id)) = &state;
-  }
+  const std::vector<const TruthState*> state_of = states_by_id(truth, objects_.size());
   for (std::size_t i = 0; i < observation.origins.size(); ++i) {
     if (observation.origins[i] == kClutterOrigin) continue;
     const auto object = static_cast<std::size_t>(observation.origins[i]);
@@ -129,13 +135,21 @@ void RunMetrics::score_sets(const StepRecord& record) {
 }
 
 void RunMetrics::update_following(const StepRecord& record) {
+  const std::vector<const TruthState*> state_of = states_by_id(record.truth, objects_.size());
   Following now;
   for (const TrackEstimate& track : record.tracks.tracks) {
-    if (const auto object = used_object(track, record.observation)) {
-      now[track.id] = *object;
-    } else if (const auto found = following_.find(track.id); found != following_.end()) {
-      now[track.id] = found->second;
+    const auto before = following_.find(track.id);
+    std::optional<ObjectId> object = used_object(track, record.observation);
+    if (!object && before != following_.end()) object = before->second.object;
+    if (!object) continue;
+    const TruthState* const truth = state_of.at(static_cast<std::size_t>(*object));
+    if (truth == nullptr) continue;
+    Followed followed{*object, before != following_.end() ? before->second.lag
+                                                          : ExpectedLag(*truth, record.truth.time)};
+    if (track.designed && before != following_.end()) {
+      followed.lag.advance(*truth, record.truth.time, *track.designed, track.residual.has_value());
     }
+    now.emplace(track.id, followed);
   }
   following_ = std::move(now);
 }
@@ -153,7 +167,7 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const auto found = following_.find(tracks[i].id);
     if (found == following_.end() || !counts_as_output(tracks[i])) continue;
-    const ObjectId object = found->second;
+    const ObjectId object = found->second.object;
     auto& best = chosen.at(static_cast<std::size_t>(object));
     if (!best || rank(i, object) < rank(*best, object)) best = i;
   }
@@ -162,13 +176,11 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
 
 void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& track, double time) {
   ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
-  const bool is_new = tally.track != track.id;
-  if (tally.track && is_new) {
+  if (tally.track && tally.track != track.id) {
     ++tally.track_changes;
     if (tally.followed) ++tally.track_losses;
   }
   tally.track = track.id;
-  if (is_new || !tally.followed) tally.expected_lag.start(truth, time);
 
   const Vec2 error = track.position - truth.position;
   latest_errors_[static_cast<std::size_t>(truth.id)] = error;
@@ -182,7 +194,7 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   if (const double speed = truth.velocity.norm(); speed > 0.0) {
     tally.lag -= error.dot(truth.velocity) / speed;
   }
-  if (track.designed) add_expected_lag(tally, truth, track, time);
+  if (track.designed) add_expected_lag(tally, truth, track);
   if (const auto squares = floor_ ? floor_->squared_errors(truth.id) : std::nullopt) {
     for (std::size_t i = 0; i < squares->size(); ++i) tally.floor_square[i] += (*squares)[i];
     ++tally.floor_count;
@@ -212,9 +224,8 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
 }
 
 void RunMetrics::add_expected_lag(ObjectTally& tally, const TruthState& truth,
-                                  const TrackEstimate& track, double time) const {
-  const ExpectedLag::Value lag =
-      tally.expected_lag.advance(truth, time, *track.designed, track.residual.has_value());
+                                  const TrackEstimate& track) const {
+  const ExpectedLag::Value& lag = following_.at(track.id).lag.value();
   tally.predicted_square += lag.position.squaredNorm();
   tally.predicted_velocity_square +=
       track.designed->noise_velocity.squaredNorm() + lag.velocity.squaredNorm();

@@ -139,7 +139,6 @@ class RunMetrics {
     double peak_error = 0.0;
     double lag = 0.0;
     double predicted_lag = 0.0;
-    ExpectedLag expected_lag;
     double predicted_velocity_square = 0.0;  // variance and squared lag
     double squared_prediction_lag = 0.0;
     double first_time = 0.0;  // of its scans
@@ -158,15 +157,19 @@ class RunMetrics {
     std::vector<Usage> usage;
   };
 
-  /// Which object each live track follows.
-  using Following = std::unordered_map<int, ObjectId>;
+  /// The object that a track follows, and how far the track lags behind it without noise.
+  struct Followed {
+    ObjectId object = 0;
+    ExpectedLag lag;
+  };
+  using Following = std::unordered_map<int, Followed>;  // by live track
 
   void score_sets(const StepRecord& record);
   void update_following(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
   void score_object(const TruthState& truth, const TrackEstimate& track, double time);
-  void add_expected_lag(ObjectTally& tally, const TruthState& truth, const TrackEstimate& track,
-                        double time) const;
+  void add_expected_lag(ObjectTally& tally, const TruthState& truth,
+                        const TrackEstimate& track) const;
   void watch_settling(ObjectTally& tally, double error, double time) const;
   void predict_by_gains(const ObjectTally& tally, const Usage& leading, ObjectReport& report) const;
   ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
