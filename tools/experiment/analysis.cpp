@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -13,10 +14,11 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kTheoryRuns = 8;             // over which theory averages what differs between runs
-constexpr std::size_t kIndices = 13;       // tracking indices 10^-3.5, … 10^0.5
-constexpr std::size_t kGridSide = 20;      // of a gain surface
-constexpr std::size_t kMostWalked = 4000;  // scans of objects that a surface is computed from
+constexpr int kTheoryRuns = 8;         // over which theory averages what differs between runs
+constexpr std::size_t kIndices = 13;   // tracking indices 10^-3.5, … 10^0.5
+constexpr std::size_t kGridSide = 20;  // of a gain surface
+constexpr std::size_t kTheorySightings = 100'000;  // of each run
+constexpr std::size_t kSurfaceSightings = 4000;
 
 bool belongs_to(ObjectId id, const Subject& subject) {
   return std::binary_search(subject.objects.begin(), subject.objects.end(), id);
@@ -173,18 +175,13 @@ class ExampleRecorder {
   ExampleRun example_;
 };
 
-/// The objects of a regime, as many as one can afford to walk through again and again.
-std::vector<SightedObject> few_of(const std::vector<SightedObject>& objects,
-                                  const Subject& regime) {
-  std::vector<SightedObject> few;
-  std::size_t scans = 0;
-  for (const SightedObject& object : objects) {
-    if (!belongs_to(object.id, regime)) continue;
-    if (!few.empty() && scans + object.sightings.size() > kMostWalked) break;
-    scans += object.sightings.size();
-    few.push_back(object);
-  }
-  return few;
+/// Those of the objects that belong to a regime.
+std::vector<SightedObject> objects_of(const std::vector<SightedObject>& objects,
+                                      const Subject& regime) {
+  std::vector<SightedObject> chosen;
+  std::copy_if(objects.begin(), objects.end(), std::back_inserter(chosen),
+               [&](const SightedObject& object) { return belongs_to(object.id, regime); });
+  return chosen;
 }
 
 GainSurface surface_of(const Trial& trial, const std::string& regime,
@@ -224,9 +221,10 @@ GainSurface surface_of(const Trial& trial, const std::string& regime,
 std::vector<SubjectTheory> theory_of(const Trial& trial) {
   const std::vector<GainFilter<2>> filters = candidates(trial.scoring());
   std::vector<TheorySum> of_objects(trial.objects().size());
+  const std::vector<ObjectId> objects = some_objects(trial, kTheorySightings);
   const int runs = std::min(kTheoryRuns, trial.scene().compare.runs);
   for (int run = 0; run < runs; ++run) {
-    for (const SightedObject& object : sightings_of(trial, run)) {
+    for (const SightedObject& object : sightings_of(trial, run, objects)) {
       of_objects[static_cast<std::size_t>(object.id)].add(object, filters);
     }
   }
@@ -243,12 +241,13 @@ std::vector<SubjectTheory> theory_of(const Trial& trial) {
 }
 
 std::vector<GainSurface> gain_surfaces(const Trial& trial) {
-  const std::vector<SightedObject> objects = sightings_of(trial, 0);
+  const std::vector<SightedObject> objects =
+      sightings_of(trial, 0, some_objects(trial, kSurfaceSightings));
   std::vector<GainSurface> surfaces;
   for (const Subject& subject : trial.subjects()) {
     if (subject.regime.empty() || !subject.object.empty()) continue;
-    const std::vector<SightedObject> few = few_of(objects, subject);
-    if (!few.empty()) surfaces.push_back(surface_of(trial, subject.regime, few));
+    const std::vector<SightedObject> own = objects_of(objects, subject);
+    if (!own.empty()) surfaces.push_back(surface_of(trial, subject.regime, own));
   }
   return surfaces;
 }

@@ -1,7 +1,10 @@
 #include "tools/experiment/guided.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string_view>
 
 namespace ghtrack {
 namespace {
@@ -30,23 +33,45 @@ double root_mean(double sum, std::int64_t count) {
 
 }  // namespace
 
-std::vector<SightedObject> sightings_of(const Trial& trial, int run) {
-  std::vector<SightedObject> objects(trial.objects().size());
-  for (std::size_t i = 0; i < objects.size(); ++i) objects[i].id = static_cast<ObjectId>(i);
+std::vector<ObjectId> some_objects(const Trial& trial, std::size_t sightings) {
+  double scans = 1.0;  // of one object
+  for (const SensorConfig& sensor : trial.scene().sensors) {
+    scans += trial.scene().duration * sensor.rate;
+  }
+  const double share =
+      static_cast<double>(sightings) / (scans * static_cast<double>(trial.regimes().size()));
+  const auto most = std::max<std::size_t>(1, static_cast<std::size_t>(share));
+  std::map<std::string_view, std::size_t> taken;  // of each regime
+  std::vector<ObjectId> objects;
+  for (const ObjectInfo& object : trial.objects()) {
+    if (taken[object.regime]++ < most) objects.push_back(object.id);
+  }
+  return objects;
+}
+
+std::vector<SightedObject> sightings_of(const Trial& trial, int run,
+                                        const std::vector<ObjectId>& wanted) {
+  std::vector<SightedObject> objects;
+  std::vector<std::optional<std::size_t>> place(trial.objects().size());  // in `objects`
+  for (const ObjectId id : wanted) {
+    place[static_cast<std::size_t>(id)] = objects.size();
+    objects.push_back({id, {}});
+  }
   const WorldScene scene = scene_of_run(trial.scene(), run);
   const Setting setting{.objects = trial.objects(), .classes = regime_kinds(), .seed = scene.seed};
   const auto on_sensed = [&](const SensedScan& scan) {
-    std::vector<std::optional<Detection>> made(objects.size());
+    std::vector<std::optional<Detection>> made(place.size());
     for (std::size_t i = 0; i < scan.observation.origins.size(); ++i) {
       const ObjectId origin = scan.observation.origins[i];
-      if (origin == kClutterOrigin) continue;
-      made.at(static_cast<std::size_t>(origin)) = scan.observation.scan.detections[i];
+      if (origin == kClutterOrigin || !place[static_cast<std::size_t>(origin)]) continue;
+      made[static_cast<std::size_t>(origin)] = scan.observation.scan.detections[i];
     }
     for (const TruthState& truth : scan.truth->objects) {
-      const auto object = static_cast<std::size_t>(truth.id);
-      std::vector<Sighting>& sightings = objects[object].sightings;
-      if (sightings.empty() && !made[object]) continue;
-      sightings.push_back({scan.truth->time, truth, made[object]});
+      const auto id = static_cast<std::size_t>(truth.id);
+      if (!place[id]) continue;
+      std::vector<Sighting>& sightings = objects[*place[id]].sightings;
+      if (sightings.empty() && !made[id]) continue;
+      sightings.push_back({scan.truth->time, truth, made[id]});
     }
   };
   sense(scene, setting, trial.truth_of(run), on_sensed, [](const SensedScan&) {});

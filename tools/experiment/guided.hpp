@@ -28,8 +28,14 @@ struct SightedObject {
   std::vector<Sighting> sightings;
 };
 
-/// All objects of one run that are detected at all, by id.
-std::vector<SightedObject> sightings_of(const Trial& trial, int run);
+/// The first objects of each regime, at least one: as many as make about so many sightings in a
+/// run. What is searched for or averaged over again and again need not see the whole of a large
+/// swarm.
+std::vector<ObjectId> some_objects(const Trial& trial, std::size_t sightings);
+
+/// Those of these objects that are detected at all in a run, by id.
+std::vector<SightedObject> sightings_of(const Trial& trial, int run,
+                                        const std::vector<ObjectId>& wanted);
 
 /// Sums of squared errors over the scans from the third detection on.
 struct ErrorSum {

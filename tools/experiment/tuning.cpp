@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -16,7 +17,7 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kMostWalked = 60'000;  // scans of objects that one evaluation goes through
+constexpr std::size_t kMostSightings = 200'000;  // that one evaluation goes through, of all regimes
 constexpr Averaging kRootMeanSquare = {.mean_square = true};
 
 /// One regime's objects in several runs.
@@ -157,28 +158,25 @@ class RegimeTuner {
   const TuningOptions& options_;
 };
 
-/// The objects of one regime in all runs, the first ones only if they are too many.
+/// The objects of one regime in all runs.
 Runs runs_of(const Runs& all, const Subject& regime) {
   Runs chosen;
-  std::size_t walked = 0;
   for (const std::vector<SightedObject>& run : all) {
-    std::vector<SightedObject>& objects = chosen.emplace_back();
-    for (const SightedObject& object : run) {
-      const bool wanted =
-          std::binary_search(regime.objects.begin(), regime.objects.end(), object.id);
-      const std::size_t most = kMostWalked * chosen.size() / all.size();
-      if (!wanted || (!objects.empty() && walked + object.sightings.size() > most)) continue;
-      walked += object.sightings.size();
-      objects.push_back(object);
-    }
+    std::copy_if(run.begin(), run.end(), std::back_inserter(chosen.emplace_back()),
+                 [&](const SightedObject& object) {
+                   return std::binary_search(regime.objects.begin(), regime.objects.end(),
+                                             object.id);
+                 });
   }
   return chosen;
 }
 
 Runs sighted_runs(const Trial& trial, int first, const TuningOptions& options) {
   Runs runs(static_cast<std::size_t>(options.runs));
-  in_parallel(runs.size(), options.jobs,
-              [&](std::size_t i) { runs[i] = sightings_of(trial, first + static_cast<int>(i)); });
+  const std::vector<ObjectId> objects = some_objects(trial, kMostSightings / runs.size());
+  in_parallel(runs.size(), options.jobs, [&](std::size_t i) {
+    runs[i] = sightings_of(trial, first + static_cast<int>(i), objects);
+  });
   return runs;
 }
 

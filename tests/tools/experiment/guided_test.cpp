@@ -27,7 +27,7 @@ TEST(ExpectedErrors, AreTheMeanOfMeasuredOnes) {
   double squares = 0.0;
   double expected = 0.0;
   for (int run = 0; run < 300; ++run) {
-    const SightedObject object = sightings_of(trial, run).at(0);
+    const SightedObject object = sightings_of(trial, run, {0}).at(0);
     const ErrorSum measured = measured_errors(filter, object);
     const double mean = measured.position / static_cast<double>(measured.scans);
     sum += mean;
@@ -87,7 +87,7 @@ TEST(Tuning, ComesWithinFivePercentOfTheBound) {
 // Property: an object is followed from its first detection on, and told apart from clutter.
 TEST(Sightings, BeginWithTheFirstDetection) {
   const Trial trial(steady_scene("{runs: 2}"));
-  const std::vector<SightedObject> objects = sightings_of(trial, 1);
+  const std::vector<SightedObject> objects = sightings_of(trial, 1, some_objects(trial, 1000));
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_EQ(objects[0].sightings.size(), 121U);
   EXPECT_TRUE(objects[0].sightings.front().detection);

@@ -62,7 +62,9 @@ TEST(SceneFragment, CanBePasted) {
   const Tuning tuning = tune(scene, {.runs = 4, .orders = {2}, .rule = {}, .jobs = 1});
   const std::string fragment = scene_fragment(tuning);
   const std::string text =
-      "name: pasted\ntargets:\n  - {ball: {type: baseball, position: [0, 0]}}\nsensors:\n  - {rate: 10}\n" + fragment;
+      "name: pasted\ntargets:\n  - {ball: {type: baseball, position: [0, 0]}}\nsensors:\n  - "
+      "{rate: 10}\n" +
+      fragment;
   const Scene pasted = read_scene_text(text, "pasted.yaml");
   const FilterConfig& filter = std::get<WorldScene>(pasted).tracker.filters.at("ball");
   const auto& manual = std::get<gain_design::Manual<2>>(std::get<GhkConfig>(filter).design);
