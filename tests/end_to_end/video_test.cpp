@@ -67,5 +67,90 @@ TEST(Video, RepeatsItselfByteForByteAndChangesNoResult) {
             contents(folder.path() / "third" / "tracks.csv"));
 }
 
+/// What a run of `ghtrack video` on this scene leaves under that name.
+fs::path video(const TemporaryFolder& folder, const std::string& scene, const std::string& name,
+               const std::string& options) {
+  const Outcome made =
+      shell("ghtrack video '" + scene_file(scene).string() + "' -o " + name + " " + options,
+            folder.path());
+  EXPECT_EQ(made.exit_code, 0) << name << ": " << made.err;
+  return folder.path() / name;
+}
+
+// Derived: codec and number of frames of every format: 0.4 s at 30 Hz.
+TEST(Video, ComesInEveryFormat) {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<std::string, std::string>> formats = {{"x.mp4", "h264"},
+                                                                    {"x.avi", "mjpeg"},
+                                                                    {"x.webm", "vp9"},
+                                                                    {"x.mkv", "ffv1"},
+                                                                    {"x.gif", "gif"}};
+  for (const auto& [name, codec] : formats) {
+    const auto stream =
+        first_stream(video(folder, "balloons.yaml", name, "--to 0.4 --size 640x360"));
+    EXPECT_EQ(stream.at("codec_name"), codec);
+    EXPECT_EQ(stream.at("nb_read_frames"), "12") << name;
+  }
+  const std::string mp4 = contents(folder.path() / "x.mp4");
+  EXPECT_LT(mp4.find("moov"), mp4.find("mdat")) << "a browser wants the index first";
+}
+
+// Derived: 0.1 s of the scene, four times slower, at 60 Hz are 24 frames.
+TEST(Video, HasItsOwnRateAndSize) {
+  const TemporaryFolder folder;
+  const auto stream = first_stream(
+      video(folder, "balloons.yaml", "x.mp4",
+            "--size 1920x1080 --fps 60 --slow 4 --from 1 --to 1.1 --poster poster.png"));
+  EXPECT_EQ(stream.at("width"), 1920);
+  EXPECT_EQ(stream.at("height"), 1080);
+  EXPECT_EQ(stream.at("r_frame_rate"), "60/1");
+  EXPECT_EQ(stream.at("nb_read_frames"), "24");
+  EXPECT_EQ(stream.at("color_space"), "bt709");
+  EXPECT_EQ(first_stream(folder.path() / "poster.png").at("width"), 1920);
+}
+
+// Derived: a name that ends with a slash is a folder of pictures; made again, it is replaced.
+TEST(Video, IsAFolderOfPicturesIfItsNameEndsWithASlash) {
+  const TemporaryFolder folder;
+  video(folder, "balloons.yaml", "pictures/", "--to 0.2 --size 320x180");
+  video(folder, "balloons.yaml", "pictures/", "--to 0.1 --size 320x180");
+  EXPECT_THAT(names_in(folder.path() / "pictures"),
+              ::testing::ElementsAre("frame_000000.png", "frame_000001.png", "frame_000002.png"));
+  EXPECT_THAT(names_in(folder.path()), ::testing::ElementsAre("pictures"));
+}
+
+// Property: the same scene gives the same bytes in mp4 and avi, and the same images in webm.
+TEST(Video, RepeatsItselfInEveryFormat) {
+  const TemporaryFolder folder;
+  const auto images = [&](const fs::path& file) {
+    return shell("ffmpeg -v error -i '" + file.string() + "' -f framemd5 -", folder.path()).out;
+  };
+  const std::string options = "--to 0.5 --size 640x360";
+  for (const std::string format : {"mp4", "avi", "webm"}) {
+    const fs::path first = video(folder, "balloons.yaml", "first." + format, options);
+    const fs::path second = video(folder, "balloons.yaml", "second." + format, options);
+    EXPECT_EQ(images(first), images(second)) << format;
+    if (format != "webm") {
+      EXPECT_TRUE(contents(first) == contents(second)) << format;
+    }
+  }
+}
+
+// Property: names with markup, of 4000 characters, written from right to left or in letters that
+// the font lacks break no frame.
+TEST(Video, SurvivesNamesOfAnyKind) {
+  const TemporaryFolder folder;
+  const std::string strange = "<b>&amp; \u05d0\u05d1 \u202emirrored \u4e2d\u6587 \U0001F388 ";
+  write(folder.path() / "scene.yaml",
+        "name: '<script>\u05d0 \u202emirrored \U0001F388'\nduration: 0.2\ntargets: [{name: '" +
+            strange + std::string(4000, 'y') +
+            "', ball: {position: [0, 5], speed: 3}}]\n"
+            "sensors: [{name: 'camera " +
+            strange + "'}]\n");
+  const Outcome made =
+      shell("ghtrack video scene.yaml -o x.mp4 --show names --show insets", folder.path());
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+}
+
 }  // namespace
 }  // namespace ghtrack::testing

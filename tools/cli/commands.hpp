@@ -62,6 +62,11 @@ struct TuneOptions {
   std::string design;       // only gains of this rule; empty: all stable ones
 };
 
+struct ViewOptions {
+  SceneOptions scene;
+  std::string screenshot;  // PNG file; empty: none
+};
+
 struct FilterCommandOptions {
   std::string file = "-";  // series, or - for standard input
   std::string filter = "gh";
@@ -105,6 +110,7 @@ struct ScoreOptions {
 // Each command returns the exit code, or throws what main() turns into one.
 int run(const RunOptions& options, const Manners& manners);
 int video(const VideoCommandOptions& options, const Manners& manners);
+int view(const ViewOptions& options);
 int compare(const CompareOptions& options, const Manners& manners);
 int tune(const TuneOptions& options, const Manners& manners);
 int check(const SceneOptions& options, const Manners& manners);

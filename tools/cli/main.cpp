@@ -52,8 +52,8 @@ void add_video(CLI::App& app, VideoCommandOptions& options) {
   CLI::App& command = *app.add_subcommand("video", "Write the annotated video of a scene");
   add_scene_options(command, options.scene, false);
   command.add_option("-o,--output", options.output,
-                     "file ending in mp4, avi, webm, mkv, gif or png "
-                     "(default: out/<scene name>/video.mp4)");
+                     "file ending in mp4, avi, webm, mkv, gif or png, or folder/ for a picture of "
+                     "each frame (default: out/<scene name>/video.mp4)");
   command.add_option("--size", options.size, "WIDTHxHEIGHT [px], both even");
   command.add_option("--fps", options.fps, "frames per second");
   command.add_option("--slow", options.slow, "show the scene this many times slower");
@@ -62,7 +62,8 @@ void add_video(CLI::App& app, VideoCommandOptions& options) {
   command.add_option("--show", options.show, "layers to add, such as fans or insets");
   command.add_option("--hide", options.hide, "layers to leave out, such as legend or grid");
   command.add_option("--encoder", options.encoder,
-                     "auto, ffmpeg (a pipe to the program, if it is installed) or opencv");
+                     "ffmpeg (a pipe to the program), opencv (no other process; no webm, no gif), "
+                     "or auto: ffmpeg where it is installed, else opencv");
   command.add_option("--poster", options.poster, "also write the last picture to this PNG file");
   command.add_flag("--compare", options.compare,
                    "the filters under `compare` in the scene side by side, on the same detections");
@@ -124,6 +125,19 @@ void add_tune(CLI::App& app, TuneOptions& options) {
       "Examples:\n"
       "  ghtrack tune scenes/three_regimes.yaml --runs 10\n"
       "  ghtrack tune scenes/throwing.yaml --runs 5 --filter gh --design benedict-bordner");
+}
+
+void add_view(CLI::App& app, ViewOptions& options) {
+  CLI::App& command = *app.add_subcommand(
+      "view", "Play a scene in a window with sliders for gains, initial guess and noise");
+  add_scene_options(command, options.scene, false);
+  command.add_option("--screenshot", options.screenshot,
+                     "write the first picture shown to this PNG file and end");
+  command.footer(
+      "Space plays and pauses, . and , step, 0 goes to the start, q quits; letters switch layers.\n"
+      "Examples:\n"
+      "  ghtrack view scenes/three_regimes.yaml\n"
+      "  ghtrack view scenes/textbook/interactive.yaml");
 }
 
 void add_check(CLI::App& app, SceneOptions& options) {
@@ -297,6 +311,7 @@ int dispatch(int argc, char** argv) {
   VideoCommandOptions video_options;
   CompareOptions compare_options;
   TuneOptions tune_options;
+  ViewOptions view_options;
   SceneOptions check_options;
   FilterCommandOptions filter_options;
   GainsCommandOptions gains_options;
@@ -304,6 +319,7 @@ int dispatch(int argc, char** argv) {
   ScoreOptions score_options;
   add_run(app, run_options);
   add_video(app, video_options);
+  add_view(app, view_options);
   add_compare(app, compare_options);
   add_tune(app, tune_options);
   add_check(app, check_options);
@@ -325,6 +341,7 @@ int dispatch(int argc, char** argv) {
   const std::vector<std::pair<const char*, std::function<int()>>> commands = {
       {"run", [&] { return run(run_options, manners); }},
       {"video", [&] { return video(video_options, manners); }},
+      {"view", [&] { return view(view_options); }},
       {"compare", [&] { return compare(compare_options, manners); }},
       {"tune", [&] { return tune(tune_options, manners); }},
       {"check", [&] { return check(check_options, manners); }},

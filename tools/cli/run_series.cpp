@@ -9,6 +9,7 @@
 
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/writer.hpp"
+#include "tools/film/series_plot.hpp"
 #include "tools/pipeline/series.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
@@ -19,9 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-using render::PlotSeries;
-
-constexpr std::size_t kMostWithPredictions = 2;  // filters in one plot, or it gets crowded
 
 std::string as_csv(const SeriesResult& result) {
   CsvRow csv;
@@ -76,50 +74,11 @@ std::string as_table(const SeriesResult& result) {
                              cell(result.measurement_rmse));
 }
 
-PlotSeries curve(const SeriesTrack& track, PlotSeries::Style style, std::string name, int filter,
-                 double SeriesRow::*value) {
-  PlotSeries series{.name = std::move(name), .style = style, .x = {}, .y = {}, .filter = filter};
-  for (const SeriesRow& row : track.rows) {
-    series.x.push_back(row.t);
-    series.y.push_back(row.*value);
-  }
-  return series;
-}
-
-render::Plot as_plot(const SeriesScene& scene, const SeriesResult& result) {
-  render::Plot plot;
-  plot.title = scene.name;
-  plot.x_label = scene.plot.x_label;
-  plot.y_label = scene.plot.y_label;
-  const SeriesTrack& first = result.tracks.front();
-  if (first.rows.front().truth) {
-    PlotSeries truth{.name = "truth", .style = PlotSeries::Style::kTruth, .x = {}, .y = {}};
-    for (const SeriesRow& row : first.rows) {
-      truth.x.push_back(row.t);
-      truth.y.push_back(*row.truth);
-    }
-    plot.series.push_back(std::move(truth));
-  }
-  plot.series.push_back(
-      curve(first, PlotSeries::Style::kMeasurement, "measurements", 0, &SeriesRow::z));
-  int index = 0;
-  for (const SeriesTrack& track : result.tracks) {
-    if (result.tracks.size() <= kMostWithPredictions) {
-      plot.series.push_back(curve(track, PlotSeries::Style::kPrediction,
-                                  track.filter + ", predicted", index, &SeriesRow::x_pred));
-    }
-    plot.series.push_back(curve(track, PlotSeries::Style::kEstimate,
-                                track.filter + " (" + track.gains + ")", index, &SeriesRow::x));
-    ++index;
-  }
-  return plot;
-}
-
 }  // namespace
 
 void run_series(const SeriesScene& scene, const fs::path& folder) {
   const SeriesResult result = ghtrack::run(scene);
-  render::write_plot(folder / "plot.png", as_plot(scene, result));
+  render::write_plot(folder / "plot.png", film::plot_of(scene, result));
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", as_json(scene, result).dump(2) + "\n");
   write_file(folder / "series.csv", as_csv(result));

@@ -18,6 +18,7 @@
 #include "tools/cli/video_frames.hpp"
 #include "tools/film/scene_drawing.hpp"
 #include "tools/pipeline/simulation.hpp"
+#include "tools/render/output_path.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -94,6 +95,7 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
     make_folder(folder);
     path = folder / "video.mp4";
   }
+  if (!options.poster.empty()) render::check_output_path(options.poster, {"png"});
   std::vector<film::Contender> contenders;
   if (options.compare) contenders = contenders_of(*scene);
   World world = make_world(*scene);

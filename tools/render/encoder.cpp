@@ -6,9 +6,10 @@
 
 #include <unistd.h>
 
-#include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -128,16 +129,17 @@ void write_png(const fs::path& path, const cv::Mat& image) {
   if (!cv::imencode(".png", image, bytes))
     throw OutputError("cannot write '" + path.string() + "': OpenCV has no encoder for PNG");
   const fs::path partial = partial_path(path);
+  errno = 0;
   std::ofstream file(partial, std::ios::binary);
   file.write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (file) return commit_file(partial, path);
+  const int error = errno;
   std::error_code ignored;
   fs::remove(partial, ignored);
-  const std::string_view reason = space_problem(path.parent_path());
   throw OutputError("cannot write '" + path.string() +
-                    "': " + (reason.empty() ? "the file was cut" : std::string(reason)));
+                    "': " + (error == 0 ? "the file was cut" : std::strerror(error)));
 }
 
 void verify_video(const fs::path& file, std::size_t frames) {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scenes/schema/series.hpp"
+#include "tools/pipeline/series.hpp"
+#include "tools/render/plot.hpp"
+
+namespace ghtrack::film {
+
+/// The plot of a series scene: truth, measurements, and what each filter makes of them.
+render::Plot plot_of(const SeriesScene& scene, const SeriesResult& result);
+
+}  // namespace ghtrack::film

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "scenes/schema/scene.hpp"
+#include "sim/world.hpp"
+#include "tools/film/frame_maker.hpp"
+#include "tools/render/picture.hpp"
+#include "tools/view/knob.hpp"
+#include "tools/view/recording.hpp"
+
+namespace ghtrack::view {
+
+/// Plays a world scene back and forth, with gains, initial guess and noise to turn. The truth and
+/// the sensors' dice are recorded once; a turn of a knob filters all of it anew.
+class WorldPlayer {
+ public:
+  explicit WorldPlayer(const WorldScene& scene);
+
+  /// g, h, k: one filter for all targets, the scene's own until one of them is turned. The initial
+  /// guess: 1-sigma speed of a target seen once. Noise: times that of the scene's sensors.
+  const std::vector<Knob>& knobs() const { return knobs_; }
+  void turn(std::size_t knob, double value);
+
+  void toggle(render::Layer layer);
+
+  std::size_t frames() const { return recording_.frames.size(); }
+  std::size_t frame() const { return frame_; }
+  double seconds_per_frame() const;
+
+  /// Goes to a frame; backwards it runs again from the start.
+  void seek(std::size_t frame);
+
+  /// The picture of the frame: 8 bit BGR.
+  const cv::Mat& image() const { return image_; }
+
+ private:
+  enum Setting : std::size_t { kG, kH, kK, kGuess, kNoise, kSettings };
+  double value(Setting setting) const { return knobs_[setting].value; }
+  TrackerConfig wanted_tracker() const;
+  void choose_tracker();
+  void start_over();
+  void deliver_until(double time);
+
+  WorldScene scene_;
+  WorldScene sensed_;  // the same with the noise that was chosen
+  World world_;        // stays at its start: only its wind is asked for
+  render::VideoOptions options_;
+  render::SceneDrawing drawing_;
+  std::vector<Knob> knobs_;
+  std::array<bool, kSettings> is_turned_{};
+  TrackerConfig tracker_;
+  Recording recording_;
+  std::unique_ptr<film::FrameMaker> maker_;
+  std::unique_ptr<render::Picture> picture_;
+  std::size_t next_arrival_ = 0;
+  std::size_t next_frame_ = 0;  // that the picture has not taken note of yet
+  double latest_scan_ = -1.0;   // [s] time of the latest scan that has arrived
+  std::size_t frame_ = 0;
+  cv::Mat image_;
+};
+
+}  // namespace ghtrack::view
