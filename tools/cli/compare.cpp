@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -71,23 +72,17 @@ int threads(const CompareOptions& options) {
 /// Computes what the results lack of a share, and keeps it in the share's journal.
 void compute_share(const Campaign& campaign, const Shard& shard, const fs::path& folder,
                    const CompareOptions& options, const Manners& manners, Results& results) {
+  const std::int64_t runs = runs_to_do(campaign, shard, results);
+  if (options.resume && runs == 0 && fs::exists(journal_path(folder, shard))) return;
   Journal journal(folder, shard, campaign, options.resume);
-  Progress progress("comparing", "runs",
-                    static_cast<std::size_t>(runs_to_do(campaign, shard, results)),
+  Progress progress("comparing", "runs", static_cast<std::size_t>(runs),
                     manners.quiet || shard.index > 0);
-  try {
-    compute(campaign, shard, results, threads(options), stop_if_interrupted,
-            [&](std::size_t cell, int run, std::vector<double> scores) {
-              journal.add(cell, run, scores);
-              results.put(cell, run, std::move(scores));
-              progress.advance();
-            });
-  } catch (Interrupted& interrupted) {
-    interrupted.remark =
-        fmt::format("{} keeps the runs that are done; the same command with --resume does the rest",
-                    folder.string());
-    throw;
-  }
+  compute(campaign, shard, results, threads(options), stop_if_interrupted,
+          [&](std::size_t cell, int run, std::vector<double> scores) {
+            journal.add(cell, run, scores);
+            results.put(cell, run, std::move(scores));
+            progress.advance();
+          });
   journal.complete();
 }
 
@@ -134,7 +129,8 @@ int merge(const CompareOptions& options, const Manners& manners) {
     throw UsageError(fmt::format("compare: no part files (shard-I-of-N.runs) in '{}'",
                                  printable(options.merge)));
   }
-  const Campaign campaign = campaign_of(journals.front());
+  const std::vector<fs::path> complete = journals_in(parts, false);
+  const Campaign campaign = campaign_of(complete.empty() ? journals.front() : complete.front());
   Results results(campaign);
   for (const fs::path& journal : journals) read_journal(journal, campaign, results);
   if (const std::int64_t missing = results.missing(); missing > 0) {
@@ -149,33 +145,61 @@ int merge(const CompareOptions& options, const Manners& manners) {
   return 0;
 }
 
-}  // namespace
+/// Adds what the other ranks have computed.
+void gather(const Campaign& campaign, int ranks, const fs::path& folder, Results& results) {
+  for (int i = 1; i < ranks; ++i) {
+    read_journal(journal_path(folder, {i, ranks}), campaign, results);
+  }
+  if (results.missing() == 0) return;
+  throw std::runtime_error(
+      fmt::format("the part files of other ranks are not in {}: all ranks need to see this folder",
+                  folder.string()));
+}
 
-int compare(const CompareOptions& options, const Manners& manners) {
-  if (!options.merge.empty()) return merge(options, manners);
-  const Campaign campaign = campaign_from(options);
-  if (options.run) return replay(campaign, *options.run);
-
-  const fs::path folder = options.output.empty() ? "out/comparison" : options.output;
-  make_folder(folder);
+/// One process, or one of several MPI ranks: computes a share, and puts all shares together unless
+/// this one is a part on its own.
+void compute_part(const Campaign& campaign, const fs::path& folder, const CompareOptions& options,
+                  const Manners& manners) {
   Ranks& ranks = join_ranks();
   const bool is_part = !options.shard.empty();
+  if (is_part && ranks.count() > 1) {
+    throw UsageError("compare: --shard is for processes on their own; MPI ranks share the runs");
+  }
   const Shard shard = is_part ? parse_shard(options.shard) : Shard{ranks.index(), ranks.count()};
   Results results(campaign);
   if (options.resume) {
     for (const fs::path& journal : journals_in(folder, true)) {
       read_journal(journal, campaign, results);
     }
-    ranks.wait_for_all();
+    ranks.wait_for_all(stop_if_interrupted);
   }
   compute_share(campaign, shard, folder, options, manners, results);
-  if (is_part) return 0;
-  ranks.wait_for_all();
-  if (shard.index != 0) return 0;
-  for (int i = 1; i < shard.count; ++i) {
-    read_journal(journal_path(folder, {i, shard.count}), campaign, results);
+  if (!is_part) {
+    ranks.wait_for_all(stop_if_interrupted);
+    if (shard.index == 0) {
+      gather(campaign, shard.count, folder, results);
+      publish(campaign, results, folder, threads(options), manners);
+    }
   }
-  publish(campaign, results, folder, threads(options), manners);
+  ranks.leave();
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options, const Manners& manners) {
+  if (!options.merge.empty()) return merge(options, manners);
+  const Campaign campaign = campaign_from(options);
+  if (options.run) return replay(campaign, *options.run);
+  const fs::path folder = options.output.empty() ? "out/comparison" : options.output;
+  make_folder(folder);
+  try {
+    compute_part(campaign, folder, options, manners);
+  } catch (Interrupted& interrupted) {
+    interrupted.remark =
+        fmt::format("{} keeps the runs that are done; the same command with --resume does the rest",
+                    folder.string());
+    throw;
+  }
   return 0;
 }
 

@@ -1,5 +1,6 @@
 #include "tools/experiment/campaign.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
@@ -31,17 +32,19 @@ std::vector<Sweep> sweeps_of(const CompareConfig& compare) {
 }
 
 Sweep parse_sweep(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
-    throw InputError("--sweep '" + text +
-                     "': error: wanted is KEY=VALUE,VALUE,…, such as "
-                     "sensors[0].noise=0.3,1,3");
-  }
+  const std::size_t equals = std::min(text.find('='), text.size());
   Sweep sweep{text.substr(0, equals), {}};
   for (std::size_t from = equals + 1; from <= text.size();) {
     const std::size_t to = std::min(text.find(',', from), text.size());
     sweep.values.push_back(text.substr(from, to - from));
     from = to + 1;
+  }
+  const bool has_gaps =
+      std::find(sweep.values.begin(), sweep.values.end(), "") != sweep.values.end();
+  if (sweep.key.empty() || sweep.values.empty() || has_gaps) {
+    throw InputError("--sweep '" + text +
+                     "': error: wanted is KEY=VALUE,VALUE,…, such as "
+                     "sensors[0].noise=0.3,1,3");
   }
   return sweep;
 }
@@ -119,9 +122,9 @@ std::string write_campaign(const Campaign& campaign) {
   return campaign_json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Campaign read_back(std::string_view text, const std::string& file) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("ghtrack", "") != GHTRACK_VERSION) {
+Campaign read_back(std::string_view text, const std::string& file) try {
+  const Json json = Json::parse(text);
+  if (json.at("ghtrack") != GHTRACK_VERSION) {
     throw InputError(file + ": error: was not written by version " GHTRACK_VERSION " of ghtrack");
   }
   Campaign campaign;
@@ -132,6 +135,8 @@ Campaign read_back(std::string_view text, const std::string& file) {
                               cell.at("sweep").get<std::string>()});
   }
   return campaign;
+} catch (const Json::exception&) {
+  throw InputError(file + ": error: does not say which campaign its runs are of");
 }
 
 std::vector<Contender> compared_filters(const WorldScene& scene) {

@@ -1,6 +1,7 @@
 #include "tools/experiment/journal.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -95,8 +96,11 @@ std::optional<Record> next_record(Bytes& bytes) {
   return record;
 }
 
-std::string bytes_of(const fs::path& path) {
+/// Nothing if the file is not there.
+std::optional<std::string> bytes_if_there(const fs::path& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
+  if (!file.is_open() && errno == ENOENT) return std::nullopt;
   std::string bytes(std::istreambuf_iterator<char>(file), {});
   if (!file.is_open() || file.bad()) {
     throw InputError(path.string() + ": error: cannot be read");
@@ -116,10 +120,8 @@ std::string_view take_header(Bytes& bytes, const fs::path& path) {
 
 /// How many bytes of a journal of this campaign are sound; 0 if it cannot be gone on with.
 std::size_t sound_size(const fs::path& path, const std::string& header) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return 0;
-  const std::string all = bytes_of(path);
-  if (all.compare(0, header.size(), header) != 0) return 0;
+  const std::string all = bytes_if_there(path).value_or("");
+  if (!all.starts_with(header)) return 0;
   Bytes bytes(std::string_view(all).substr(header.size()));
   while (next_record(bytes)) {
   }
@@ -151,9 +153,15 @@ Journal::Journal(const fs::path& folder, const Shard& shard, const Campaign& cam
   const std::string header = header_of(campaign);
   std::error_code ignored;
   if (resume && fs::exists(path_, ignored)) fs::rename(path_, partial_path_, ignored);
-  const std::size_t sound = resume ? sound_size(partial_path_, header) : 0;
   descriptor_ = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail();
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    throw WriteError(partial_path_.string() +
+                     ": error: another process is writing this file; under srun, MPI ranks need "
+                     "--mpi=pmix");
+  }
+  if (!resume) fs::remove(path_, ignored);
+  const std::size_t sound = resume ? sound_size(partial_path_, header) : 0;
   const auto end = static_cast<off_t>(sound);
   if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) fail();
   if (sound == 0) write(header);
@@ -197,30 +205,32 @@ fs::path journal_path(const fs::path& folder, const Shard& shard) {
 
 std::vector<fs::path> journals_in(const fs::path& folder, bool partial_ones) {
   std::vector<fs::path> found;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const fs::path& path = entry.path();
     const bool partial = path.extension() == kPartial;
     const fs::path name = partial ? path.stem() : path.filename();
-    if (name.extension() == kExtension && (partial_ones || !partial)) found.push_back(path);
+    const bool wanted = name.extension() == kExtension && (partial_ones || !partial);
+    if (wanted && !entry.is_directory(ignored)) found.push_back(path);
   }
   std::sort(found.begin(), found.end());
   return found;
 }
 
 Campaign campaign_of(const fs::path& journal) {
-  const std::string all = bytes_of(journal);
+  const std::string all = bytes_if_there(journal).value_or("");
   Bytes bytes(all);
   return read_back(take_header(bytes, journal), journal.string());
 }
 
 void read_journal(const fs::path& journal, const Campaign& campaign, Results& results) {
-  const std::string all = bytes_of(journal);
-  Bytes bytes(all);
+  const std::optional<std::string> all = bytes_if_there(journal);
+  if (!all || header_of(campaign).starts_with(*all)) return;
+  Bytes bytes(*all);
   if (take_header(bytes, journal) != write_campaign(campaign)) {
     throw InputError(journal.string() +
                      ": error: is of another campaign: other scenes, filters, runs or seed, or "
-                     "another version of the program");
+                     "another version of the program; remove it, or choose another folder");
   }
   while (auto record = next_record(bytes)) {
     const bool known =

@@ -43,8 +43,8 @@ class Results {
 /// a check sum, and what comes after a damaged one is ignored.
 class Journal {
  public:
-  /// Begins the file, or goes on with it if `resume` and it is there.
-  /// @throws WriteError
+  /// Begins the file, in place of an older one, or goes on with it if `resume` and it is there.
+  /// @throws WriteError, also while another process writes the same share
   Journal(const std::filesystem::path& folder, const Shard& shard, const Campaign& campaign,
           bool resume);
   ~Journal();
@@ -77,7 +77,8 @@ std::vector<std::filesystem::path> journals_in(const std::filesystem::path& fold
 /// @throws InputError if the file is no journal
 Campaign campaign_of(const std::filesystem::path& journal);
 
-/// Adds what a journal holds.
+/// Adds what a journal holds: nothing if it is not there, because the process that writes it has
+/// just renamed it, or ends within its first bytes.
 /// @throws InputError if it is no journal, or one of another campaign
 void read_journal(const std::filesystem::path& journal, const Campaign& campaign, Results& results);
 

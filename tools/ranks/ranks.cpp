@@ -13,7 +13,8 @@ class OneRank final : public Ranks {
  public:
   int index() const override { return 0; }
   int count() const override { return 1; }
-  void wait_for_all() override {}
+  void wait_for_all(const std::function<void()>& /*meanwhile*/) override {}
+  void leave() override {}
 };
 
 /// Open MPI's mpirun and Slurm's srun (with PMIx or PMI-2) announce themselves in this way.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 namespace ghtrack {
 
 /// This process among those that `mpirun` or `srun` has started together.
@@ -9,7 +11,11 @@ class Ranks {
   virtual int index() const = 0;  // from 0
   virtual int count() const = 0;
   /// Returns when all of them have called it.
-  virtual void wait_for_all() = 0;
+  /// @param meanwhile  called again and again until then; may throw to give up
+  virtual void wait_for_all(const std::function<void()>& meanwhile) = 0;
+  /// The last call of a process that did its part. The launcher takes one that ends without it for
+  /// failed, and stops the others instead of letting them wait for ever.
+  virtual void leave() = 0;
 };
 
 /// The ranks that this process belongs to, or itself alone when no MPI launcher has started it.
@@ -20,6 +26,6 @@ Ranks& join_ranks();
 /// Name and type of the module's only symbol.
 inline constexpr const char* kRanksModule = "ghtrack_mpi";
 inline constexpr const char* kRanksFactory = "ghtrack_mpi_ranks";
-using RanksFactory = Ranks* (*)();  // the one instance; MPI ends when the program does
+using RanksFactory = Ranks* (*)();  // the one instance
 
 }  // namespace ghtrack

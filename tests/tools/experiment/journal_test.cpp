@@ -54,7 +54,7 @@ TEST(Journal, SurvivesACutAtEveryByte) {
     whole = fs::file_size(partial);
   }
   const std::uintmax_t record = (whole - header) / 2;
-  for (std::uintmax_t size = header; size < whole; ++size) {
+  for (std::uintmax_t size = 0; size < whole; ++size) {
     fs::resize_file(partial, size);
     Results results(campaign);
     read_journal(partial, campaign, results);
@@ -65,8 +65,39 @@ TEST(Journal, SurvivesACutAtEveryByte) {
       if (!results.has(0, 0)) journal.add(0, 0, kScores);
       journal.add(0, 1, kScores);
     }
-    EXPECT_EQ(fs::file_size(partial), whole);
+    ASSERT_EQ(fs::file_size(partial), whole);
   }
+}
+
+// Property: a share has one writer, which may rename its file while others look for it.
+TEST(Journal, IsWrittenByOneProcessAndMayVanish) {
+  const ScratchFolder scratch;
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  Journal journal(scratch.path(), {}, campaign, false);
+  journal.add(0, 0, kScores);
+  EXPECT_THROW(Journal(scratch.path(), {}, campaign, true), WriteError);
+  EXPECT_THROW(Journal(scratch.path(), {}, campaign, false), WriteError);
+  const std::vector<fs::path> seen = journals_in(scratch.path(), true);
+  ASSERT_EQ(seen.size(), 1U);
+  journal.complete();
+  Results results(campaign);
+  read_journal(seen.front(), campaign, results);
+  EXPECT_EQ(results.missing(), 3);
+  read_journal(journal_path(scratch.path(), {}), campaign, results);
+  EXPECT_EQ(results.missing(), 2);
+}
+
+// Property: what is begun anew leaves nothing of the campaign that was there before.
+TEST(Journal, ReplacesAnOlderCampaign) {
+  const ScratchFolder scratch;
+  Journal(scratch.path(), {}, campaign_of_scene(steady_scene("{runs: 4}")), false).complete();
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  Journal(scratch.path(), {}, campaign, false).add(0, 0, kScores);
+  Results results(campaign);
+  for (const fs::path& file : journals_in(scratch.path(), true)) {
+    read_journal(file, campaign, results);
+  }
+  EXPECT_EQ(results.missing(), 2);
 }
 
 // Property: a flipped bit spoils its run and what follows, nothing before.
@@ -100,6 +131,7 @@ TEST(Journal, RefusesAnotherCampaign) {
   EXPECT_THROW(read_journal(journal_path(scratch.path(), {}), other, results), InputError);
   std::ofstream(scratch.path() / "odd.runs") << "not a journal";
   EXPECT_THROW(campaign_of(scratch.path() / "odd.runs"), InputError);
+  EXPECT_THROW(read_back("{\"ghtrack\": 7}", "odd.runs"), InputError);
   EXPECT_THROW(Journal(scratch.path() / "nowhere", {}, campaign, false), WriteError);
 }
 
