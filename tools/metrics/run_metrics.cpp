@@ -213,11 +213,10 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
   }
 
   const auto usage = std::find_if(tally.usage.begin(), tally.usage.end(), [&](const Usage& u) {
-    return u.filter == track.filter && u.gains == track.gains &&
-           u.designed == track.designed.has_value();
+    return u.filter == track.filter && u.gains == track.gains;
   });
   if (usage == tally.usage.end()) {
-    tally.usage.push_back({track.filter, track.gains, track.designed.has_value(), 1});
+    tally.usage.push_back({track.filter, track.gains, 1});
   } else {
     ++usage->scans;
   }
@@ -229,10 +228,21 @@ void RunMetrics::add_expected_lag(ObjectTally& tally, const TruthState& truth,
   tally.predicted_square += lag.position.squaredNorm();
   tally.predicted_velocity_square +=
       track.designed->noise_velocity.squaredNorm() + lag.velocity.squaredNorm();
-  tally.squared_prediction_lag += lag.prediction.squaredNorm();
+  ++tally.expected_lags;
+  if (track.residual) add_expected_innovation(tally, lag.prediction, track.gains);
   if (const double speed = truth.velocity.norm(); speed > 0.0) {
     tally.predicted_lag += lag.position.dot(truth.velocity) / speed;
   }
+}
+
+/// The length of a residual whose two components have the lag m and the standard deviation s: about
+/// √(|m|² + π s² / 2), exact without lag (Rayleigh) and without noise.
+void RunMetrics::add_expected_innovation(ObjectTally& tally, const Vec2& lag,
+                                         const Gains& gains) const {
+  if (gains.order < 1 || !is_stable(gains)) return;
+  const double variance = innovation_variance(gains, options_.sigma, options_.period);
+  tally.predicted_innovation += std::sqrt(lag.squaredNorm() + 0.5 * std::numbers::pi * variance);
+  ++tally.predicted_innovations;
 }
 
 void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) const {
@@ -243,21 +253,6 @@ void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) c
   }
   if (tally.calm_scans == 0) tally.calm_since = time;
   ++tally.calm_scans;
-}
-
-/// For the innovation: the steady variance reduction of the leading gains, and the expected lag.
-/// The length of a residual with two independent, equal normal components is on average √(π/4) of
-/// its root mean square (Rayleigh).
-void RunMetrics::predict_by_gains(const ObjectTally& tally, const Usage& leading,
-                                  ObjectReport& report) const {
-  if (!leading.designed || leading.gains.order < 1 || !is_stable(leading.gains)) return;
-  const VarianceReduction reduction = variance_reduction(leading.gains, options_.period);
-  const double noise = 2.0 * options_.sigma * options_.sigma;  // of both axes
-  const auto scans = static_cast<double>(report.tracked);
-  report.predicted_velocity = std::sqrt(tally.predicted_velocity_square / scans);
-  report.predicted_mai =
-      std::sqrt(0.25 * std::numbers::pi *
-                (noise * (1.0 + reduction.prediction) + tally.squared_prediction_lag / scans));
 }
 
 ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& tally) const {
@@ -293,7 +288,8 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
       *std::min_element(tally.floor_square.begin(), tally.floor_square.end()), tally.floor_count);
   report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);
   report.bias = tally.error / static_cast<double>(report.tracked);
-  predict_by_gains(tally, *leading, report);
+  report.predicted_velocity = root_mean(tally.predicted_velocity_square, tally.expected_lags);
+  report.predicted_mai = mean(tally.predicted_innovation, tally.predicted_innovations);
   report.peak_error = tally.peak_error;
   report.lag = tally.lag / static_cast<double>(report.tracked);
   report.predicted_lag = tally.predicted_lag / static_cast<double>(report.tracked);

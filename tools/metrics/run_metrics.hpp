@@ -121,7 +121,6 @@ class RunMetrics {
   struct Usage {
     std::string filter;
     Gains gains;
-    bool designed = false;
     std::int64_t scans = 0;
   };
 
@@ -140,7 +139,9 @@ class RunMetrics {
     double lag = 0.0;
     double predicted_lag = 0.0;
     double predicted_velocity_square = 0.0;  // variance and squared lag
-    double squared_prediction_lag = 0.0;
+    std::int64_t expected_lags = 0;
+    double predicted_innovation = 0.0;
+    std::int64_t predicted_innovations = 0;
     double first_time = 0.0;  // of its scans
     double calm_since = 0.0;
     int calm_scans = 0;
@@ -170,8 +171,8 @@ class RunMetrics {
   void score_object(const TruthState& truth, const TrackEstimate& track, double time);
   void add_expected_lag(ObjectTally& tally, const TruthState& truth,
                         const TrackEstimate& track) const;
+  void add_expected_innovation(ObjectTally& tally, const Vec2& lag, const Gains& gains) const;
   void watch_settling(ObjectTally& tally, double error, double time) const;
-  void predict_by_gains(const ObjectTally& tally, const Usage& leading, ObjectReport& report) const;
   ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
 
   std::vector<ObjectInfo> objects_;

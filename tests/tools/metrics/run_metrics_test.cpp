@@ -126,7 +126,7 @@ TEST(RunMetrics, AddsTheLagToThePrediction) {
   const VarianceReduction noise = variance_reduction(Gains::of_gh(0.5, 0.2), 0.5);
   EXPECT_NEAR(*ball.predicted_velocity, std::hypot(0.5, 2.0), 0.01);
   EXPECT_NEAR(*ball.predicted_mai,
-              std::sqrt(0.25 * std::numbers::pi * (0.02 * (1.0 + noise.prediction) + 6.25)), 0.01);
+              std::sqrt(0.25 * std::numbers::pi * 0.02 * (1.0 + noise.prediction) + 6.25), 0.01);
 }
 
 // Derived: an acceleration that changes its sign at every scan leaves no time for a lag to grow: a
