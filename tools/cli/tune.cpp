@@ -18,6 +18,7 @@
 #include "tools/experiment/tuning.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
+#include "tools/report/report.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -78,6 +79,7 @@ int tune(const TuneOptions& options, const Manners& manners) {
     make_folder(folder);
     write_file(folder / "tuning.json", to_json(tuning).dump(2) + "\n");
     write_file(folder / "gains.yaml", scene_fragment(tuning));
+    write_file(folder / "report.html", tuning_report(tuning));
     for (const GainSurface& surface : tuning.surfaces) {
       write_file(folder / ("surface-" + surface.regime + ".csv"), surface_csv(surface));
     }

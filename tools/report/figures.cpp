@@ -264,11 +264,16 @@ std::optional<std::string> prediction_figure(const Comparison& comparison) {
   return chart.svg();
 }
 
-std::optional<std::string> surface_figure(const Comparison& comparison,
-                                          const GainSurface& surface) {
+double least_error(const GainSurface& surface) {
   Range errors;
   for (const double rmse : surface.rmse) errors.add_positive(rmse);
-  if (errors.is_empty() || surface.g.size() < 2 || surface.h.size() < 2) return std::nullopt;
+  return errors.is_empty() ? std::numeric_limits<double>::quiet_NaN() : errors.low;
+}
+
+std::optional<std::string> surface_figure(const std::vector<std::string>& filters,
+                                          const GainSurface& surface) {
+  const double least = least_error(surface);
+  if (!std::isfinite(least) || surface.g.size() < 2 || surface.h.size() < 2) return std::nullopt;
   const std::vector<double> g = edges(surface.g, false);
   const std::vector<double> h = edges(surface.h, true);
   Chart chart("Expected error over g and h: " + surface.regime,
@@ -277,19 +282,19 @@ std::optional<std::string> surface_figure(const Comparison& comparison,
   for (std::size_t i = 0; i < surface.g.size(); ++i) {
     const std::span<const double> column(&surface.rmse[i * surface.h.size()], surface.h.size());
     for (std::size_t from = 0, to = 0; from < column.size(); from = to) {
-      const std::optional<int> shade = shade_of(column[from], errors.low);
-      for (to = from + 1; to < column.size() && shade_of(column[to], errors.low) == shade;) ++to;
+      const std::optional<int> shade = shade_of(column[from], least);
+      for (to = from + 1; to < column.size() && shade_of(column[to], least) == shade;) ++to;
       if (!shade) continue;
       chart.rectangle({g[i], h[to]}, {g[i + 1], h[from]}, fmt::format("shade{}", *shade));
     }
   }
   chart.star({surface.best.g, surface.best.h}, "best",
              fmt::format("the best: g {:.3g}, h {:.3g}, expected RMSE {:.3g} m", surface.best.g,
-                         surface.best.h, errors.low));
+                         surface.best.h, least));
   for (const GainSurface::Mark& mark : surface.marks) {
-    chart.mark({mark.gains.g, mark.gains.h}, filter_class(mark.filter),
-               fmt::format("{}: g {:.3g}, h {:.3g}", comparison.filters[mark.filter], mark.gains.g,
-                           mark.gains.h));
+    chart.mark(
+        {mark.gains.g, mark.gains.h}, filter_class(mark.filter),
+        fmt::format("{}: g {:.3g}, h {:.3g}", filters.at(mark.filter), mark.gains.g, mark.gains.h));
   }
   return chart.svg();
 }

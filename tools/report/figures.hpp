@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/experiment/comparison.hpp"
 
@@ -29,7 +30,11 @@ nlohmann::json error_data(const Comparison& comparison, const ComparedCell& cell
 std::optional<std::string> prediction_figure(const Comparison& comparison);
 
 /// The expected error over g and h.
-std::optional<std::string> surface_figure(const Comparison& comparison, const GainSurface& surface);
+/// @param filters  names of the filters that the surface marks
+std::optional<std::string> surface_figure(const std::vector<std::string>& filters,
+                                          const GainSurface& surface);
+/// The least error of a surface [m]; NaN if all gains are unstable.
+double least_error(const GainSurface& surface);
 
 /// Shades of a gain surface, from the least error to kWorstShown times as much.
 inline constexpr int kShades = 8;

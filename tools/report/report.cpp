@@ -7,17 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "tools/html/page.hpp"
 #include "tools/html/template.hpp"
-#include "tools/playground/playground.hpp"
 #include "tools/report/figures.hpp"
+#include "tools/report/report_page.hpp"
 #include "tools/report/tables.hpp"
 
 namespace ghtrack::embedded {
-extern const std::string_view kDygraphScript;
-extern const std::string_view kDygraphStyle;
-extern const std::string_view kReportScript;
-extern const std::string_view kReportStyle;
 extern const std::string_view kReportTemplate;
 }  // namespace ghtrack::embedded
 
@@ -45,15 +40,18 @@ Json regimes_of(const Comparison& comparison, const ComparedCell& cell) {
   Json regimes = Json::array();
   for (const std::string& regime : cell.regimes) {
     Json surface = nullptr;
+    std::string least;
     for (const GainSurface& candidate : cell.surfaces) {
-      if (candidate.regime == regime)
-        surface = figure(report::surface_figure(comparison, candidate));
+      if (candidate.regime != regime) continue;
+      surface = figure(report::surface_figure(comparison.filters, candidate));
+      least = fmt::format("{:.3g}", report::least_error(candidate));
     }
     regimes.push_back(
         {{"regime", regime},
          {"error", figure(report::error_figure(comparison, cell, regime))},
          {"data", html::json_for_script(report::error_data(comparison, cell, regime))},
-         {"surface", std::move(surface)}});
+         {"surface", std::move(surface)},
+         {"least", least}});
   }
   return regimes;
 }
@@ -115,40 +113,18 @@ Json metric_meanings() {
   return meanings;
 }
 
-/// The library ends with the address of its source map, which the page does not have.
-std::string_view without_source_map(std::string_view script) {
-  return script.substr(0, script.rfind("\n//# sourceMappingURL="));
-}
-std::string_view without_style_map(std::string_view style) {
-  return style.substr(0, style.rfind("\n/*# sourceMappingURL="));
-}
-
 }  // namespace
 
 std::string comparison_report(const Comparison& comparison, const ReportOptions& options) {
-  const std::optional<Playground> sliders = options.playground ? playground() : std::nullopt;
-  const Json values = {{"title", options.title},
-                       {"introduction", options.introduction},
-                       {"size", count_of(comparison.cells.size(), "setting") + ", " +
-                                    count_of(comparison.filters.size(), "filter")},
-                       {"tables", report::summary_tables(comparison)},
-                       {"prediction", figure(report::prediction_figure(comparison))},
-                       {"cells", cells_of(comparison, options)},
-                       {"meanings", metric_meanings()},
-                       {"playground", sliders ? Json(sliders->section) : Json(nullptr)}};
-  html::Page page{
-      .title = options.title,
-      .description = "Monte Carlo comparison of tracking filters by ghtrack",
-      .body = html::filled(embedded::kReportTemplate, values),
-      .styles = {html::base_style(), without_style_map(embedded::kDygraphStyle),
-                 embedded::kReportStyle},
-      .scripts = {without_source_map(embedded::kDygraphScript), embedded::kReportScript}};
-  if (sliders) {
-    page.styles.push_back(sliders->style);
-    page.scripts.push_back(sliders->script);
-    page.runs_wasm = true;
-  }
-  return html::to_html(page);
+  return report::report_page(options.title, embedded::kReportTemplate,
+                             {{"introduction", options.introduction},
+                              {"size", count_of(comparison.cells.size(), "setting") + ", " +
+                                           count_of(comparison.filters.size(), "filter")},
+                              {"tables", report::summary_tables(comparison)},
+                              {"prediction", figure(report::prediction_figure(comparison))},
+                              {"cells", cells_of(comparison, options)},
+                              {"meanings", metric_meanings()}},
+                             options.playground);
 }
 
 }  // namespace ghtrack

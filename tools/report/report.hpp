@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tools/experiment/comparison.hpp"
+#include "tools/experiment/tuning.hpp"
 
 namespace ghtrack {
 
@@ -26,5 +27,8 @@ struct ReportOptions {
 /// tables. It needs no network, and without scripts keeps its tables and charts. Equal arguments
 /// give equal bytes.
 std::string comparison_report(const Comparison& comparison, const ReportOptions& options = {});
+
+/// The same for what tuning found: gains judged, and the error over g and h, for every regime.
+std::string tuning_report(const Tuning& tuning);
 
 }  // namespace ghtrack

@@ -76,6 +76,37 @@ TEST(Report, EmbedsThePlaygroundWhereItWasBuilt) {
   EXPECT_EQ(count(comparison_report(comparison, {.playground = false}), "id=\"playground\""), 0U);
 }
 
+// Property: what was tuned is shown with its surface and the part to be pasted, and names stay
+// text.
+TEST(Report, ShowsTunedGains) {
+  GainSurface surface = synthetic_comparison(1).cells.front().surfaces.front();
+  surface.marks.clear();
+  const std::string html =
+      tuning_report({.scene = testing::kHostileName,
+                     .runs = 50,
+                     .sigma = 0.5,
+                     .period = 0.05,
+                     .regimes = {{.regime = surface.regime,
+                                  .acceleration = 0.3,
+                                  .tracking_index = 0.01,
+                                  .bound = 0.2,
+                                  .best = Gains::of_gh(0.25, 0.03),
+                                  .judged = {{.origin = "tuned",
+                                              .filter = "gh",
+                                              .gains = "g=0.25 h=0.03",
+                                              .trained_rmse = 0.21,
+                                              .rmse = 0.22,
+                                              .ci95 = Interval{0.21, 0.23},
+                                              .difference = 0.0,
+                                              .difference_ci95 = std::nullopt}}}},
+                     .surfaces = {surface}});
+  EXPECT_THAT(html, HasSubstr("<td class=\"number\">0.22</td><td>0.21 to 0.23</td>"));
+  EXPECT_THAT(html, HasSubstr("train: {gh: {g: 0.25, h: 0.03}}"));
+  EXPECT_THAT(html, HasSubstr("<svg class=\"chart\""));
+  EXPECT_THAT(html, HasSubstr("tuned: g 0.25, h 0.03"));
+  EXPECT_THAT(html, Not(HasSubstr("<img")));
+}
+
 // Property: a comparison of nothing is a page as well.
 TEST(Report, OfNothingIsAPage) {
   const std::string html = comparison_report({});
