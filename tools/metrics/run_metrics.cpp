@@ -28,23 +28,6 @@ std::optional<double> mean(double sum, std::int64_t count) {
   return sum / static_cast<double>(count);
 }
 
-/// The object whose detection the track used in this scan, if it used one of an object.
-std::optional<ObjectId> used_object(const TrackEstimate& track, const Observation& observation) {
-  if (!track.detection) return std::nullopt;
-  const ObjectId origin = observation.origins.at(*track.detection);
-  if (origin == kClutterOrigin) return std::nullopt;
-  return origin;
-}
-
-/// The state of each object; null for one that is not there.
-std::vector<const TruthState*> states_by_id(const TruthSnapshot& truth, std::size_t objects) {
-  std::vector<const TruthState*> states(objects, nullptr);
-  for (const TruthState& state : truth.objects) {
-    states.at(static_cast<std::size_t>(state.id)) = &state;
-  }
-  return states;
-}
-
 }  // namespace
 
 RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors) {
@@ -62,6 +45,7 @@ RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions&
     : objects_(std::move(objects)),
       options_(options),
       tallies_(objects_.size()),
+      following_(objects_.size()),
       latest_errors_(objects_.size()),
       mot_({options.gospa().cutoff, options.gospa().order}) {
   if (options.with_floor) floor_.emplace(objects_.size(), options.sigma, options.period);
@@ -84,7 +68,7 @@ void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& 
 void RunMetrics::add_tracks(const StepRecord& record) {
   if (floor_) floor_->go_to(record.tracks.time, record.tracks.sensor);
   score_sets(record);
-  update_following(record);
+  following_.update(record);
 
   const std::vector<std::optional<std::size_t>> chosen = choose_tracks(record);
   latest_errors_.assign(objects_.size(), std::nullopt);
@@ -134,26 +118,6 @@ void RunMetrics::score_sets(const StepRecord& record) {
   mot_.add_points(truth_ids, truth, track_ids, tracks, options_.matching());
 }
 
-void RunMetrics::update_following(const StepRecord& record) {
-  const std::vector<const TruthState*> state_of = states_by_id(record.truth, objects_.size());
-  Following now;
-  for (const TrackEstimate& track : record.tracks.tracks) {
-    const auto before = following_.find(track.id);
-    std::optional<ObjectId> object = used_object(track, record.observation);
-    if (!object && before != following_.end()) object = before->second.object;
-    if (!object) continue;
-    const TruthState* const truth = state_of.at(static_cast<std::size_t>(*object));
-    if (truth == nullptr) continue;
-    Followed followed{*object, before != following_.end() ? before->second.lag
-                                                          : ExpectedLag(*truth, record.truth.time)};
-    if (track.designed && before != following_.end()) {
-      followed.lag.advance(*truth, record.truth.time, *track.designed, track.residual.has_value());
-    }
-    now.emplace(track.id, followed);
-  }
-  following_ = std::move(now);
-}
-
 /// For each object the index of the track that follows it: rather one that used its detection in
 /// this scan, then the one that followed it before, then the oldest.
 std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepRecord& record) {
@@ -165,11 +129,10 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
                       tally.track != tracks[i].id, tracks[i].id);
   };
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const auto found = following_.find(tracks[i].id);
-    if (found == following_.end() || !counts_as_output(tracks[i])) continue;
-    const ObjectId object = found->second.object;
-    auto& best = chosen.at(static_cast<std::size_t>(object));
-    if (!best || rank(i, object) < rank(*best, object)) best = i;
+    const std::optional<ObjectId> object = following_.object_of(tracks[i].id);
+    if (!object || !counts_as_output(tracks[i])) continue;
+    auto& best = chosen.at(static_cast<std::size_t>(*object));
+    if (!best || rank(i, *object) < rank(*best, *object)) best = i;
   }
   return chosen;
 }
@@ -224,7 +187,7 @@ void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& trac
 
 void RunMetrics::add_expected_lag(ObjectTally& tally, const TruthState& truth,
                                   const TrackEstimate& track) const {
-  const ExpectedLag::Value& lag = following_.at(track.id).lag.value();
+  const ExpectedLag::Value& lag = following_.lag_of(track.id);
   tally.predicted_square += lag.position.squaredNorm();
   tally.predicted_velocity_square +=
       track.designed->noise_velocity.squaredNorm() + lag.velocity.squaredNorm();

@@ -5,12 +5,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "tools/metrics/batch_means.hpp"
 #include "tools/metrics/error_floor.hpp"
-#include "tools/metrics/expected_lag.hpp"
+#include "tools/metrics/following.hpp"
 #include "tools/metrics/gospa.hpp"
 #include "tools/metrics/mot_score.hpp"
 #include "tools/metrics/switches.hpp"
@@ -158,15 +157,7 @@ class RunMetrics {
     std::vector<Usage> usage;
   };
 
-  /// The object that a track follows, and how far the track lags behind it without noise.
-  struct Followed {
-    ObjectId object = 0;
-    ExpectedLag lag;
-  };
-  using Following = std::unordered_map<int, Followed>;  // by live track
-
   void score_sets(const StepRecord& record);
-  void update_following(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
   void score_object(const TruthState& truth, const TrackEstimate& track, double time);
   void add_expected_lag(ObjectTally& tally, const TruthState& truth,
