@@ -51,6 +51,7 @@ struct CompareOptions {
   std::string shard;                // I/N; empty: everything
   std::string merge;                // folder of parts to be joined; empty: none
   bool resume = false;
+  bool video = false;  // of `run`
 };
 
 struct TuneOptions {

@@ -15,6 +15,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/run_replay.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/experiment/comparison.hpp"
@@ -106,20 +107,10 @@ void publish(const Campaign& campaign, const Results& results, const fs::path& f
   write_run_table(campaign, results, folder / "runs.csv");
   write_file(folder / "comparison.json", to_json(comparison).dump(2) + "\n");
   write_file(folder / "comparison.csv", comparison_csv(comparison));
-  write_file(folder / "report.html", comparison_report(comparison));
+  write_file(folder / "report.html",
+             comparison_report(comparison, {.videos = videos_in(folder, campaign)}));
   fmt::print("{}", to_table(comparison));
   if (!manners.quiet) fmt::print(stderr, "results in {}\n", folder.string());
-}
-
-/// Prints the rows of one run, as they stand in runs.csv.
-int replay(const Campaign& campaign, int run) {
-  std::string rows = run_table_header();
-  for (const CampaignCell& cell : campaign.cells) {
-    const Trial trial(cell.scene);
-    rows += run_table_rows(cell, trial, run, trial.scores(run, stop_if_interrupted));
-  }
-  fmt::print("{}", rows);
-  return 0;
 }
 
 int merge(const CompareOptions& options, const Manners& manners) {
@@ -189,8 +180,12 @@ void compute_part(const Campaign& campaign, const fs::path& folder, const Compar
 int compare(const CompareOptions& options, const Manners& manners) {
   if (!options.merge.empty()) return merge(options, manners);
   const Campaign campaign = campaign_from(options);
-  if (options.run) return replay(campaign, *options.run);
   const fs::path folder = options.output.empty() ? "out/comparison" : options.output;
+  if (options.run) {
+    replay_run(campaign, *options.run, options.video ? std::optional(folder) : std::nullopt,
+               manners);
+    return 0;
+  }
   make_folder(folder);
   try {
     compute_part(campaign, folder, options, manners);

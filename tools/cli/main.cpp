@@ -96,8 +96,11 @@ void add_compare(CLI::App& app, CompareOptions& options) {
                      "I/N: only every N-th run, from number I on (0 to N-1), into a part file");
   command.add_option("--merge", options.merge, "join the part files in this folder");
   command.add_flag("--resume", options.resume, "compute only what the part files lack");
-  command.add_option("--run", options.run, "replay this run alone (from 0) and print its rows")
-      ->check(CLI::Range(0, 999'999));
+  CLI::Option* const run =
+      command.add_option("--run", options.run, "replay this run alone (from 0) and print its rows")
+          ->check(CLI::Range(0, 999'999));
+  command.add_flag("--video", options.video, "with --run: also film it, all filters side by side")
+      ->needs(run);
   command.footer(
       "Examples:\n"
       "  ghtrack compare scenes/three_regimes.yaml --runs 20\n"

@@ -101,22 +101,7 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
   World world = make_world(*scene);
   VideoFrames frames(*scene, world, changed_by(options, film::video_options(*scene, world, path)),
                      std::move(contenders), manners.quiet);
-  Listener listener;
-  listener.on_scan = [&](const StepRecord& record) { frames.add_scan(record); };
-  listener.on_late_scan = [&](const Observation& late) { frames.add_late_scan(late); };
-  listener.frame_times = frames.times();
-  listener.on_frame = [&](const TruthSnapshot& truth) {
-    stop_if_interrupted();
-    frames.add_frame(truth);
-  };
-  try {
-    ghtrack::run(*scene, world, listener);
-  } catch (Interrupted& interrupted) {
-    frames.writer().keep_partial();
-    interrupted.remark = fmt::format("{} holds what was done so far, in a file named .partial",
-                                     path.parent_path().string());
-    throw;
-  }
+  film_run(*scene, world, frames, path);
   if (!options.poster.empty()) frames.writer().write_poster(options.poster);
   frames.writer().finish();
   if (!manners.quiet) fmt::print(stderr, "{}: {}\n", scene->name, path.string());

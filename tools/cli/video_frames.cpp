@@ -1,9 +1,12 @@
 #include "tools/cli/video_frames.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "tools/cli/interruption.hpp"
 #include "tools/film/scene_drawing.hpp"
+#include "tools/pipeline/simulation.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -27,6 +30,26 @@ VideoFrames::VideoFrames(const WorldScene& scene, const World& world,
 void VideoFrames::add_frame(const TruthSnapshot& truth) {
   writer_.add_frame(maker_.frame(truth));
   progress_.advance();
+}
+
+void film_run(const WorldScene& scene, World& world, VideoFrames& frames,
+              const std::filesystem::path& path) {
+  Listener listener;
+  listener.on_scan = [&](const StepRecord& record) { frames.add_scan(record); };
+  listener.on_late_scan = [&](const Observation& late) { frames.add_late_scan(late); };
+  listener.frame_times = frames.times();
+  listener.on_frame = [&](const TruthSnapshot& truth) {
+    stop_if_interrupted();
+    frames.add_frame(truth);
+  };
+  try {
+    ghtrack::run(scene, world, listener);
+  } catch (Interrupted& interrupted) {
+    frames.writer().keep_partial();
+    interrupted.remark = fmt::format("{} holds what was done so far, in a file named .partial",
+                                     path.parent_path().string());
+    throw;
+  }
 }
 
 }  // namespace ghtrack::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "scenes/schema/scene.hpp"
@@ -34,5 +35,10 @@ class VideoFrames {
   film::FrameMaker maker_;
   Progress progress_;
 };
+
+/// Runs a scene from its start to its end into a video, which finish() has still to complete. What
+/// an interrupted run has drawn is kept in a file named .partial.
+void film_run(const WorldScene& scene, World& world, VideoFrames& frames,
+              const std::filesystem::path& path);
 
 }  // namespace ghtrack::cli
