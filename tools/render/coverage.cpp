@@ -36,7 +36,8 @@ void Coverage::add(Pixel min, Pixel max, double opacity, Distance distance) {
     std::uint8_t* shares =
         shares_.data() + static_cast<std::ptrdiff_t>(y - top_) * (right_ - left_);
     for (int x = first; x < last; ++x) {
-      const double share = std::clamp(0.5 - distance(1.0 * x, 1.0 * y), 0.0, 1.0);
+      const double share = std::min(1.0, 0.5 - distance(1.0 * x, 1.0 * y));
+      if (!(share > 0.0)) continue;
       std::uint8_t& here = shares[x - left_];
       here = std::max(here, static_cast<std::uint8_t>(full * share + 0.5));
     }
@@ -49,14 +50,17 @@ void Coverage::add_line(Pixel from, Pixel to, double thickness, double opacity) 
   const double squared = dx * dx + dy * dy;
   const double inverse = squared > 0.0 ? 1.0 / squared : 0.0;
   const double radius = 0.5 * thickness;
+  const double reach = radius + 0.5;
   const auto distance = [&](double x, double y) {
     const double along = std::clamp(((x - from.x) * dx + (y - from.y) * dy) * inverse, 0.0, 1.0);
     const double ex = x - from.x - along * dx;
     const double ey = y - from.y - along * dy;
-    return std::sqrt(ex * ex + ey * ey) - radius;
+    const double squared_distance = ex * ex + ey * ey;
+    if (squared_distance > reach * reach) return 1.0;  // not covered: how far does not matter
+    return std::sqrt(squared_distance) - radius;
   };
   // A long line at an angle is taken in strips, whose boxes are little larger than the line.
-  constexpr double kStrip = 12.0;
+  constexpr double kStrip = 6.0;
   const double shorter = std::min(std::abs(dx), std::abs(dy));
   const int strips = std::max(1, static_cast<int>(std::ceil(shorter / kStrip)));
   for (int i = 0; i < strips; ++i) {

@@ -71,7 +71,7 @@ inline constexpr Color kRail{58, 68, 81};
 inline constexpr Color kTie{98, 110, 125};
 inline constexpr Color kFieldOfView{62, 82, 102};
 inline constexpr Color kWind{60, 90, 112};
-inline constexpr Color kTruth{92, 103, 117};
+inline constexpr Color kTruth{70, 80, 93};
 inline constexpr Color kTruthEdge{190, 200, 212};
 inline constexpr Color kDetection{255, 255, 255};
 inline constexpr Color kClutter{122, 131, 143};

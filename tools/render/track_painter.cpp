@@ -71,6 +71,7 @@ class TrackPainter {
     const double ring = length(is_tentative ? 6.0 : kEstimateRing);
     const double thickness = length(is_tentative ? 1.0 : 2.0);
     const Color color = memory_.color_of(track);
+    if (!is_tentative) canvas_.ring(at, ring, {dark::kWorld, 0.55}, thickness + length(2.0));
     if (track.status != TrackStatus::kCoasting) return canvas_.ring(at, ring, color, thickness);
     std::vector<Pixel> outline = ellipse_outline(at, {ring, 0.0}, {0.0, ring});
     outline.push_back(outline.front());

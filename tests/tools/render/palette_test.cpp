@@ -14,7 +14,7 @@ TEST(Contrast, IsOneForEqualColoursAndTwentyOneForBlackAndWhite) {
 // Property: graphics need a contrast of 3 with their ground, text needs 4.5 (WCAG 2.1).
 TEST(Palette, StandsOutFromTheGround) {
   for (const Color color : kTrackColors) EXPECT_GE(contrast(color, dark::kWorld), 3.0);
-  for (const Color color : {dark::kTruth, dark::kDetection, dark::kClutter, dark::kTentative})
+  for (const Color color : {dark::kTruthEdge, dark::kDetection, dark::kClutter, dark::kTentative})
     EXPECT_GE(contrast(color, dark::kWorld), 3.0);
   for (const Color color : {dark::kText, dark::kMutedText, dark::kAxisText})
     EXPECT_GE(contrast(color, dark::kPage), 4.5);
