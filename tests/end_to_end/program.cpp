@@ -14,13 +14,23 @@ namespace ghtrack::testing {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Lets mpirun start ranks as root, and more of them than there are processors.
+constexpr const char* kMpiEnvironment =
+    "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+    "OMPI_MCA_rmaps_base_oversubscribe=1 && ";
+
+}  // namespace
+
 Outcome shell(const std::string& command, const fs::path& folder) {
   const TemporaryFolder streams;
   const fs::path out = streams.path() / "out";
   const fs::path err = streams.path() / "err";
   const std::string line = "cd '" + folder.string() + "' && unset DISPLAY && export PATH='" +
-                           std::string(GHTRACK_PROGRAM_DIR) + "':\"$PATH\" && { " + command +
-                           "\n} >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
+                           std::string(GHTRACK_PROGRAM_DIR) + "':\"$PATH\" && " + kMpiEnvironment +
+                           "{ " + command + "\n} >'" + out.string() + "' 2>'" + err.string() +
+                           "' </dev/null";
   const int status =
       std::system(line.c_str());  // NOLINT(cert-env33-c): tests run a shell on purpose
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

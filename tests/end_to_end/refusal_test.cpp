@@ -75,8 +75,8 @@ TEST(Refusal, ASignalEndsARunWithoutAFileUnderItsFinalName) {
 TEST(Help, SucceedsAndShowsExamples) {
   const TemporaryFolder folder;
   EXPECT_THAT(shell("ghtrack --version", folder.path()).out, HasSubstr("ghtrack "));
-  for (const char* command :
-       {"", "run", "video", "check", "schema", "filter", "gains", "track", "score"}) {
+  for (const char* command : {"", "run", "video", "compare", "tune", "check", "schema", "filter",
+                              "gains", "track", "score"}) {
     const Outcome outcome = shell(std::string("ghtrack ") + command + " --help", folder.path());
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.out, HasSubstr("Examples:")) << command;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -147,16 +148,15 @@ void gather(const Campaign& campaign, int ranks, const fs::path& folder, Results
                   folder.string()));
 }
 
-/// One process, or one of several MPI ranks: computes a share, and puts all shares together unless
-/// this one is a part on its own.
-void compute_part(const Campaign& campaign, const fs::path& folder, const CompareOptions& options,
-                  const Manners& manners) {
+/// Computes what is asked for, a part on its own or the share of this MPI rank, and puts the shares
+/// of all ranks together.
+void compute_part(const Campaign& campaign, const std::optional<Shard>& part,
+                  const fs::path& folder, const CompareOptions& options, const Manners& manners) {
   Ranks& ranks = join_ranks();
-  const bool is_part = !options.shard.empty();
-  if (is_part && ranks.count() > 1) {
+  if (part && ranks.count() > 1) {
     throw UsageError("compare: --shard is for processes on their own; MPI ranks share the runs");
   }
-  const Shard shard = is_part ? parse_shard(options.shard) : Shard{ranks.index(), ranks.count()};
+  const Shard shard = part.value_or(Shard{ranks.index(), ranks.count()});
   Results results(campaign);
   if (options.resume) {
     for (const fs::path& journal : journals_in(folder, true)) {
@@ -165,7 +165,7 @@ void compute_part(const Campaign& campaign, const fs::path& folder, const Compar
     ranks.wait_for_all(stop_if_interrupted);
   }
   compute_share(campaign, shard, folder, options, manners, results);
-  if (!is_part) {
+  if (!part) {
     ranks.wait_for_all(stop_if_interrupted);
     if (shard.index == 0) {
       gather(campaign, shard.count, folder, results);
@@ -186,9 +186,11 @@ int compare(const CompareOptions& options, const Manners& manners) {
                manners);
     return 0;
   }
+  std::optional<Shard> part;
+  if (!options.shard.empty()) part = parse_shard(options.shard);
   make_folder(folder);
   try {
-    compute_part(campaign, folder, options, manners);
+    compute_part(campaign, part, folder, options, manners);
   } catch (Interrupted& interrupted) {
     interrupted.remark =
         fmt::format("{} keeps the runs that are done; the same command with --resume does the rest",
