@@ -15,7 +15,7 @@ namespace ghtrack {
 namespace {
 
 constexpr int kTheoryRuns = 8;         // over which theory averages what differs between runs
-constexpr std::size_t kIndices = 13;   // tracking indices 10^-3.5, … 10^0.5
+constexpr std::size_t kIndices = 19;   // tracking indices 10^-3.5, … 10^2.5
 constexpr std::size_t kGridSide = 20;  // of a gain surface
 constexpr std::size_t kTheorySightings = 100'000;  // of each run
 constexpr std::size_t kSurfaceSightings = 4000;
@@ -24,15 +24,26 @@ bool belongs_to(ObjectId id, const Subject& subject) {
   return std::binary_search(subject.objects.begin(), subject.objects.end(), id);
 }
 
+/// The filter with Kalata's gains in the steady state, and Kalman's on the way there, at uneven
+/// times and for detections of different quality.
+template <int Order>
+GainFilter<2> kalman_like(double index, const RunMetricsOptions& sensor) {
+  constexpr double kDiffuse = 100.0;  // the start's uncertainty, in sigmas per period
+  GainFilterConfig<Order> config;
+  config.design = gain_design::TrackingIndex<Order>{.index = index};
+  config.schedule = GainSource::kCovariance;
+  config.initial_speed = kDiffuse * sensor.sigma / sensor.period;
+  config.initial_acceleration = config.initial_speed / sensor.period;
+  return std::get<GainFilter<2>>(make_filter(config, sensor.sigma, sensor.period));
+}
+
 /// The filters of which the best one is the bound.
 std::vector<GainFilter<2>> candidates(const RunMetricsOptions& sensor) {
   std::vector<GainFilter<2>> filters;
-  for (const int order : {1, 2}) {
-    for (std::size_t i = 0; i < kIndices; ++i) {
-      const double index = std::pow(10.0, -3.5 + static_cast<double>(i) / 3.0);
-      filters.push_back(
-          plain_filter(tracking_index_gains(order, index), sensor.sigma, sensor.period));
-    }
+  for (std::size_t i = 0; i < kIndices; ++i) {
+    const double index = std::pow(10.0, -3.5 + static_cast<double>(i) / 3.0);
+    filters.push_back(kalman_like<1>(index, sensor));
+    filters.push_back(kalman_like<2>(index, sensor));
   }
   return filters;
 }

@@ -18,9 +18,11 @@ struct SubjectTheory {
 
 /// Theory for all subjects of a cell, averaged over its first runs.
 ///
-/// The bound is the least expected error of 26 filters that are told which detection is whose: g-h
-/// and g-h-k with Kalata's gains for three tracking indices per decade, the best one chosen
-/// afterwards. For motion that is linear and Gaussian it is the steady Kalman filter's error.
+/// The bound is the least expected error of 38 Kalman filters that are told which detection is
+/// whose: of constant velocity and of constant acceleration, with three tracking indices per
+/// decade, the best one chosen afterwards. For motion that is linear and Gaussian none can do
+/// better. Of the error ellipses of detections only the axes x and y count, so behind a radar,
+/// which has long and slanting ones, a filter may do better than this bound.
 std::vector<SubjectTheory> theory_of(const Trial& trial);
 
 /// The expected RMSE of position over a grid of g and h, for each regime, on run 0.

@@ -123,9 +123,9 @@ ErrorSum expected_errors(GainFilter<2> filter, const SightedObject& object) {
   };
   walk(object, advance, [&](const Sighting& sighting) {
     sum.position += (filter.estimate().position - sighting.truth.position).squaredNorm() +
-                    filter.position_sigma().squaredNorm();
+                    filter.noise_sigma().squaredNorm();
     sum.velocity += (filter.estimate().velocity - sighting.truth.velocity).squaredNorm() +
-                    filter.velocity_sigma().squaredNorm();
+                    filter.noise_velocity_sigma().squaredNorm();
     ++sum.scans;
   });
   return sum;
