@@ -370,6 +370,15 @@ TEST_F(Compare, TunesGainsAndWritesThem) {
   EXPECT_EQ(run(tune + "--jobs 1").exit_code, 0);
 }
 
+// Property: tuning, which writes nothing before its end, can be interrupted.
+TEST_F(Compare, StopsTuningWhenInterrupted) {
+  const Outcome outcome = run(
+      "timeout --preserve-status -s INT 1 ghtrack tune scene.yaml --runs 100000 --jobs 1 -o tuned");
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(outcome.err, HasSubstr("ghtrack: interrupted; nothing was written"));
+  EXPECT_THAT(names_in(folder()), ElementsAre("scene.yaml"));
+}
+
 /// The examples with which the help of a command ends.
 std::vector<std::string> examples_of(const std::string& command) {
   const Outcome help = shell("ghtrack " + command + " --help", fs::temp_directory_path());

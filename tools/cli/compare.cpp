@@ -104,7 +104,7 @@ void write_run_table(const Campaign& campaign, const Results& results, const fs:
 /// Averages complete results, writes all files and prints the table.
 void publish(const Campaign& campaign, const Results& results, const fs::path& folder, int jobs,
              const Manners& manners) {
-  const Comparison comparison = compare(campaign, results, jobs);
+  const Comparison comparison = compare(campaign, results, jobs, stop_if_interrupted);
   write_run_table(campaign, results, folder / "runs.csv");
   write_file(folder / "comparison.json", to_json(comparison).dump(2) + "\n");
   write_file(folder / "comparison.csv", comparison_csv(comparison));

@@ -52,8 +52,8 @@ void replay_run(const Campaign& campaign, int run, const std::optional<fs::path>
                 const Manners& manners) {
   std::string rows = run_table_header();
   for (const CampaignCell& cell : campaign.cells) {
-    const Trial trial(cell.scene);
-    rows += run_table_rows(cell, trial, run, trial.scores(run, stop_if_interrupted));
+    const Trial trial(cell.scene, stop_if_interrupted);
+    rows += run_table_rows(cell, trial, run, trial.scores(run));
   }
   fmt::print("{}", rows);
   if (!films) return;

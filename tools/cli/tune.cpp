@@ -12,6 +12,7 @@
 
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/interruption.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/experiment/gain_search.hpp"
@@ -73,7 +74,7 @@ int tune(const TuneOptions& options, const Manners& manners) {
     throw UsageError(
         fmt::format("tune: {} is a series; gains are tuned in a world", printable(file)));
   }
-  const Tuning tuning = ghtrack::tune(*scene, wanted);
+  const Tuning tuning = ghtrack::tune(*scene, wanted, stop_if_interrupted);
   if (!options.output.empty()) {
     const fs::path folder = options.output;
     make_folder(folder);

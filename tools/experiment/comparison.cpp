@@ -51,6 +51,7 @@ class CellReduction {
     std::vector<ComparisonRow> all;
     for (std::size_t subject = 0; subject < trial_.subjects().size(); ++subject) {
       for (const Metric metric : all_metrics()) {
+        trial_.step();
         std::vector<ComparisonRow> rows = rows_of(subject, metric, theory[subject]);
         all.insert(all.end(), rows.begin(), rows.end());
       }
@@ -174,8 +175,9 @@ class CellReduction {
   RunValues values_;
 };
 
-CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::size_t index) {
-  Trial trial(cell.scene);
+CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::size_t index,
+                       const std::function<void()>& on_step) {
+  Trial trial(cell.scene, on_step);
   trial.record_truth();
   const CellReduction reduction(trial, RunValues(results, index, cell.runs()));
   CellOutcome outcome;
@@ -218,10 +220,12 @@ void renumber(CellOutcome& outcome, std::vector<std::string>& filters) {
 
 }  // namespace
 
-Comparison compare(const Campaign& campaign, const Results& results, int jobs) {
+Comparison compare(const Campaign& campaign, const Results& results, int jobs,
+                   const std::function<void()>& on_step) {
   std::vector<CellOutcome> outcomes(campaign.cells.size());
-  in_parallel(outcomes.size(), jobs,
-              [&](std::size_t i) { outcomes[i] = outcome_of(campaign.cells[i], results, i); });
+  in_parallel(outcomes.size(), jobs, [&](std::size_t i) {
+    outcomes[i] = outcome_of(campaign.cells[i], results, i, on_step);
+  });
   Comparison comparison;
   for (CellOutcome& outcome : outcomes) {
     renumber(outcome, comparison.filters);

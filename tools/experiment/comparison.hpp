@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -118,7 +119,10 @@ struct Comparison {
 /// Averages the results of a campaign and sets theory beside them.
 /// @param results  of all runs
 /// @param jobs     threads; the outcome does not depend on them
-Comparison compare(const Campaign& campaign, const Results& results, int jobs);
+/// @param on_step  called again and again by all threads; may throw to give up
+Comparison compare(
+    const Campaign& campaign, const Results& results, int jobs,
+    const std::function<void()>& on_step = [] {});
 
 /// `comparison.csv`: one line per row.
 std::string comparison_csv(const Comparison& comparison);

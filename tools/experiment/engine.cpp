@@ -22,24 +22,24 @@ namespace {
 /// A cell's trial: made when its first run is asked for, gone when its last one is done.
 class SharedTrial {
  public:
-  SharedTrial(const WorldScene& scene, const std::function<void()>& on_scan)
-      : scene_(scene), on_scan_(on_scan) {}
+  SharedTrial(const WorldScene& scene, const std::function<void()>& on_step)
+      : scene_(scene), on_step_(on_step) {}
 
   void expect_run() { ++runs_left_; }
 
   std::vector<double> scores(int run) {
     std::call_once(made_, [this] {
-      trial_ = std::make_unique<Trial>(scene_);
-      trial_->record_truth(on_scan_);
+      trial_ = std::make_unique<Trial>(scene_, on_step_);
+      trial_->record_truth();
     });
-    std::vector<double> scores = trial_->scores(run, on_scan_);
+    std::vector<double> scores = trial_->scores(run);
     if (--runs_left_ == 0) trial_.reset();
     return scores;
   }
 
  private:
   const WorldScene& scene_;
-  const std::function<void()>& on_scan_;
+  const std::function<void()>& on_step_;
   std::once_flag made_;
   std::unique_ptr<Trial> trial_;
   std::atomic<int> runs_left_ = 0;
@@ -76,12 +76,12 @@ std::int64_t runs_to_do(const Campaign& campaign, const Shard& shard, const Resu
 }
 
 void compute(const Campaign& campaign, const Shard& shard, const Results& results, int jobs,
-             const std::function<void()>& on_scan,
+             const std::function<void()>& on_step,
              const std::function<void(std::size_t, int, std::vector<double>)>& on_result) {
   const std::vector<Item> items = missing_items(campaign, shard, results);
   std::vector<std::unique_ptr<SharedTrial>> trials;
   for (const CampaignCell& cell : campaign.cells) {
-    trials.push_back(std::make_unique<SharedTrial>(cell.scene, on_scan));
+    trials.push_back(std::make_unique<SharedTrial>(cell.scene, on_step));
   }
   for (const Item& item : items) trials[item.cell]->expect_run();
 

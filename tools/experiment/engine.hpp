@@ -12,12 +12,12 @@ namespace ghtrack {
 std::int64_t runs_to_do(const Campaign& campaign, const Shard& shard, const Results& results);
 
 /// Computes the missing runs of a share with `jobs` threads.
-/// @param on_scan    called again and again by all threads; may throw to give up
+/// @param on_step    called again and again by all threads; may throw to give up
 /// @param on_result  gets the scores of each run, one call at a time, in whatever order they come;
 ///                   an exception ends the computation and is passed on
 /// @throws std::runtime_error naming the scene and the run in which something went wrong
 void compute(const Campaign& campaign, const Shard& shard, const Results& results, int jobs,
-             const std::function<void()>& on_scan,
+             const std::function<void()>& on_step,
              const std::function<void(std::size_t cell, int run, std::vector<double>)>& on_result);
 
 /// Calls `task` with 0, 1, …, count − 1, in any order, with `jobs` threads.

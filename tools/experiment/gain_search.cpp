@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -68,17 +69,25 @@ struct Search {
   const std::function<double(const Gains&)>& cost;
   std::vector<double> best;
   double least = std::numeric_limits<double>::infinity();
+  nlopt_opt running = nullptr;
+  std::exception_ptr failure = nullptr;  // of the cost; NLopt is written in C
 
   static double evaluate(unsigned count, const double* parameters, double* /*gradient*/,
                          void* data) {
     auto& search = *static_cast<Search*>(data);
     const std::span<const double> at(parameters, count);
-    const double cost = search.cost(search.family.at(at));
-    if (cost < search.least) {
-      search.least = cost;
-      search.best.assign(at.begin(), at.end());
+    try {
+      const double cost = search.cost(search.family.at(at));
+      if (cost < search.least) {
+        search.least = cost;
+        search.best.assign(at.begin(), at.end());
+      }
+      return std::isfinite(cost) ? cost : kHugeCost;
+    } catch (...) {
+      search.failure = std::current_exception();
+      nlopt_force_stop(search.running);
+      return kHugeCost;
     }
-    return std::isfinite(cost) ? cost : kHugeCost;
   }
 
   void run(nlopt_algorithm algorithm, int evaluations) {
@@ -92,7 +101,9 @@ struct Search {
     if (algorithm == NLOPT_LN_SBPLX) nlopt_set_initial_step1(optimiser.get(), 0.05);
     std::vector<double> parameters = best;
     double value = 0.0;
-    const nlopt_result result = nlopt_optimize(optimiser.get(), parameters.data(), &value);
+    running = optimiser.get();
+    const nlopt_result result = nlopt_optimize(running, parameters.data(), &value);
+    if (failure) std::rethrow_exception(failure);
     if (result == NLOPT_INVALID_ARGS || result == NLOPT_OUT_OF_MEMORY) {
       throw std::runtime_error("the optimiser failed: " +
                                std::string(nlopt_result_to_string(result)));

@@ -183,8 +183,9 @@ std::size_t bytes_of(const TruthSnapshot& truth) {
 
 }  // namespace
 
-Trial::Trial(const WorldScene& scene)
+Trial::Trial(const WorldScene& scene, std::function<void()> on_step)
     : scene_(scene),
+      on_step_(std::move(on_step)),
       contenders_(compared_filters(scene)),
       scoring_(scoring_for(traits_of(scene.sensors))) {
   scoring_.with_floor = false;
@@ -198,13 +199,13 @@ Trial::Trial(const WorldScene& scene)
   subjects_ = subjects_of(objects_, regimes_);
 }
 
-void Trial::record_truth(const std::function<void()>& on_scan) {
+void Trial::record_truth() {
   if (!truth_is_fixed(scene_)) return;
   World world = world_of_run(scene_, 0);
   ScanSchedule schedule(scene_);
   std::size_t bytes = 0;
   for (auto scan = schedule.next(); scan; scan = schedule.next()) {
-    on_scan();
+    step();
     schedule.take(*scan);
     truth_.push_back(std::make_shared<const TruthSnapshot>(world.sample(scan->time)));
     bytes += bytes_of(*truth_.back());
@@ -216,14 +217,19 @@ void Trial::record_truth(const std::function<void()>& on_scan) {
 
 TruthSource Trial::truth_of(int run) const {
   if (!truth_.empty()) {
-    return [next = truth_.begin()](double /*time*/) mutable { return *next++; };
+    return [this, next = truth_.begin()](double /*time*/) mutable {
+      step();
+      return *next++;
+    };
   }
   const auto world = std::make_shared<World>(world_of_run(scene_, run));
-  return
-      [world](double time) { return std::make_shared<const TruthSnapshot>(world->sample(time)); };
+  return [this, world](double time) {
+    step();
+    return std::make_shared<const TruthSnapshot>(world->sample(time));
+  };
 }
 
-std::vector<double> Trial::scores(int run, const std::function<void()>& on_scan) const {
+std::vector<double> Trial::scores(int run) const {
   const WorldScene scene = scene_of_run(scene_, run);
   const Setting setting{.objects = objects_, .classes = regime_kinds(), .seed = scene.seed};
   std::vector<Attempt> attempts;
@@ -231,7 +237,6 @@ std::vector<double> Trial::scores(int run, const std::function<void()>& on_scan)
   sense(
       scene, setting, truth_of(run),
       [&](const SensedScan& scan) {
-        on_scan();
         for (Attempt& attempt : attempts) attempt.sense(scan);
       },
       [&](const SensedScan& scan) {

@@ -58,8 +58,10 @@ class TrialLayout {
 /// One cell of a campaign, ready to run. Constant operations are safe to use from several threads.
 class Trial {
  public:
+  /// @param on_step  called again and again by whatever takes long; may throw to give up
   /// @throws std::invalid_argument if a filter cannot be designed for the scene's sensors
-  explicit Trial(const WorldScene& scene);
+  explicit Trial(
+      const WorldScene& scene, std::function<void()> on_step = [] {});
 
   const WorldScene& scene() const { return scene_; }
   const std::vector<ObjectInfo>& objects() const { return objects_; }
@@ -72,20 +74,21 @@ class Trial {
 
   /// Simulates the truth once for all runs to come, where they share it and it fits into memory.
   /// Without it every run simulates its own.
-  /// @param on_scan  called before each scan; may throw to give up
-  void record_truth(const std::function<void()>& on_scan = [] {});
+  void record_truth();
 
   /// The truth of one run, scan by scan in the order of time.
   TruthSource truth_of(int run) const;
 
   /// Runs every contender on the same detections and scores them.
-  /// @param on_scan  called before each scan; may throw to give up
   /// @return numbers as layout() says
-  std::vector<double> scores(
-      int run, const std::function<void()>& on_scan = [] {}) const;
+  std::vector<double> scores(int run) const;
+
+  /// A step of work on this trial is done: each scan of truth_of() is one.
+  void step() const { on_step_(); }
 
  private:
   WorldScene scene_;
+  std::function<void()> on_step_;
   std::vector<ObjectInfo> objects_;
   std::vector<Contender> contenders_;
   std::vector<TrackerDesign> designs_;

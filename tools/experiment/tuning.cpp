@@ -100,6 +100,7 @@ class RegimeTuner {
     const GainFamily family =
         options_.rule ? *gains_of_rule(*options_.rule, order) : stable_gains(order);
     return least_cost(family, [&](const Gains& gains) {
+      trial_.step();
       const double rmse = pooled_rmse(filter_with(gains, sensor_), training_);
       return std::isfinite(rmse) ? rmse : std::numeric_limits<double>::infinity();
     });
@@ -182,13 +183,14 @@ Runs sighted_runs(const Trial& trial, int first, const TuningOptions& options) {
 
 }  // namespace
 
-Tuning tune(const WorldScene& scene, const TuningOptions& options) {
+Tuning tune(const WorldScene& scene, const TuningOptions& options,
+            const std::function<void()>& on_step) {
   for (const int order : options.orders) {
     if (options.rule && !gains_of_rule(*options.rule, order)) {
       throw std::invalid_argument("there is no family of gains called '" + *options.rule + "'");
     }
   }
-  Trial trial(scene);
+  Trial trial(scene, on_step);
   trial.record_truth();
   const Runs training = sighted_runs(trial, 0, options);
   const Runs judging = sighted_runs(trial, options.runs, options);

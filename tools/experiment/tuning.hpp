@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -54,8 +55,11 @@ struct Tuning {
 /// Tunes gains for every regime of a scene. Runs 0 to N − 1 are for finding, N to 2N − 1 for
 /// judging. What is minimised is the mean squared error of position from an object's third
 /// detection on; a table of least-squares gains serves the start, as in a tracker.
+/// @param on_step  called again and again by all threads; may throw to give up
 /// @throws std::invalid_argument for a rule that has no family of gains
-Tuning tune(const WorldScene& scene, const TuningOptions& options);
+Tuning tune(
+    const WorldScene& scene, const TuningOptions& options,
+    const std::function<void()>& on_step = [] {});
 
 /// The best gains as a part of a scene, to be pasted under `tracker`.
 std::string scene_fragment(const Tuning& tuning);

@@ -68,5 +68,16 @@ TEST(LeastCost, AvoidsInfiniteCosts) {
   EXPECT_NEAR(found.gains.g, 0.8, 1e-3);
 }
 
+// Property: what the cost throws ends the search and is passed on, through a library written in C.
+TEST(LeastCost, PassesOnWhatTheCostThrows) {
+  int evaluations = 0;
+  const auto cost = [&](const Gains& gains) {
+    if (++evaluations == 9) throw std::runtime_error("enough");
+    return gains.g;
+  };
+  EXPECT_THROW(least_cost(stable_gains(1), cost), std::runtime_error);
+  EXPECT_EQ(evaluations, 9);
+}
+
 }  // namespace
 }  // namespace ghtrack

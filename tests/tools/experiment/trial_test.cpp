@@ -93,12 +93,11 @@ TEST(Trial, JudgesEveryFilterAlone) {
 
 // Property: an exception from the callback ends a run.
 TEST(Trial, GivesUpWhenAskedTo) {
-  const Trial trial(busy_scene("{runs: 5}"));
   int scans = 0;
-  const auto stop_soon = [&] {
+  const Trial trial(busy_scene("{runs: 5}"), [&] {
     if (++scans == 7) throw std::runtime_error("enough");
-  };
-  EXPECT_THROW(trial.scores(0, stop_soon), std::runtime_error);
+  });
+  EXPECT_THROW(trial.scores(0), std::runtime_error);
   EXPECT_EQ(scans, 7);
 }
 
