@@ -25,7 +25,7 @@ constexpr int kInputWrong = 2;
 
 void add_scene_options(CLI::App& command, SceneOptions& options, bool several) {
   auto* files = command.add_option("SCENE", options.files, "scene file (YAML)")->required();
-  files->expected(1, several ? 1000000 : 1);
+  files->expected(several ? -1 : 1);
   command.add_option("--seed", options.seed, "seed of all random numbers");
   command.add_option("--duration", options.duration, "length of the run [s]");
   command

@@ -54,8 +54,8 @@ struct ErrorSum {
 ErrorSum measured_errors(Filter filter, const SightedObject& object);
 
 /// The errors to be expected of a filter over all measurement noise, given which scans detected the
-/// object: the squared lag of the filter on noiseless detections, and the variance of the noise that
-/// it carries along, both exact for errors of the covariance that detections tell.
+/// object: the squared lag of the filter on noiseless detections, and the variance of the noise
+/// that it carries along, both exact for errors of the covariance that detections tell.
 /// @param filter  has not started yet
 ErrorSum expected_errors(GainFilter<2> filter, const SightedObject& object);
 
