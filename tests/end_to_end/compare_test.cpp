@@ -393,9 +393,9 @@ std::vector<std::string> examples_of(const std::string& command) {
 // Property: the examples in the help work as typed in a clone.
 TEST_F(Compare, ShowsExamplesThatWork) {
   fs::create_symlink(fs::path(GHTRACK_SOURCE_DIR) / "scenes", folder() / "scenes");
-  for (const char* command : {"compare", "tune"}) {
+  for (const char* command : {"compare", "tune", "check", "filter", "gains"}) {
     const std::vector<std::string> examples = examples_of(command);
-    EXPECT_GE(examples.size(), 2U);
+    EXPECT_GE(examples.size(), 1U);
     for (const std::string& example : examples) {
       const Outcome outcome = run(example);
       EXPECT_EQ(outcome.exit_code, 0) << example << "\n" << outcome.err;

@@ -41,7 +41,7 @@ std::size_t frame_count(const VideoOptions& options, double duration) {
   check_range("fps", options.fps, 1.0, 240.0);
   check_range("slow", options.slow, 0.01, 1000.0);
   const double end = std::min(options.to.value_or(duration), duration);
-  if (!(options.from >= 0.0 && options.from < end))
+  if (!(options.from >= 0.0 && options.from <= end))
     throw RequestError("from is " + number(options.from) + " s, but the video ends at " +
                        number(end) + " s");
   const double frames = std::round((end - options.from) * options.slow * options.fps);

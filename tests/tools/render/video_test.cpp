@@ -227,6 +227,8 @@ TEST(FrameClock, CountsFramesAndKnowsTheirTimes) {
   options.to = 7.0;
   EXPECT_EQ(frame_count(options, 20.0), 240u);
   EXPECT_DOUBLE_EQ(frame_time(options, 120), 6.0);
+  options.to = 5.0;
+  EXPECT_EQ(frame_count(options, 20.0), 1u);
   options.to = 4.0;
   EXPECT_THROW(frame_count(options, 20.0), RequestError);
 }
