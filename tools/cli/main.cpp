@@ -182,7 +182,8 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
       "Examples:\n"
       "  printf '158\\n164.2\\n160.3\\n' | ghtrack filter --filter gh --g 0.4 --h 0.3 --x0 160 "
       "--dx0 1\n"
-      "  ghtrack filter scenes/textbook/weights.csv --g 0.6 --h 0.6667 --x0 160 --dx0 1 --json");
+      "  printf 'z,truth\\n158,161\\n164.2,162\\n' | ghtrack filter --g 0.6 --h 0.6667 --x0 160 "
+      "--dx0 1 --json");
 }
 
 void add_gains(CLI::App& app, GainsCommandOptions& options) {
