@@ -63,7 +63,7 @@ struct TheorySum {
     }
     const TruthState* before = nullptr;
     double before_time = 0.0;
-    for (const Sighting& sighting : object.sightings) {
+    for (const ObjectScan& sighting : object.sightings) {
       square_acceleration += sighting.truth.acceleration.squaredNorm();
       ++scans;
       if (before != nullptr && sighting.time > before_time) {

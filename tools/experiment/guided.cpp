@@ -18,7 +18,7 @@ template <class Advance, class Visit>
 void walk(const SightedObject& object, const Advance& advance, const Visit& visit) {
   int detections = 0;
   double before = object.sightings.empty() ? 0.0 : object.sightings.front().time;
-  for (const Sighting& sighting : object.sightings) {
+  for (const ObjectScan& sighting : object.sightings) {
     advance(sighting, sighting.time - before);
     before = sighting.time;
     if (sighting.detection) ++detections;
@@ -69,7 +69,7 @@ std::vector<SightedObject> sightings_of(const Trial& trial, int run,
     for (const TruthState& truth : scan.truth->objects) {
       const auto id = static_cast<std::size_t>(truth.id);
       if (!place[id]) continue;
-      std::vector<Sighting>& sightings = objects[*place[id]].sightings;
+      std::vector<ObjectScan>& sightings = objects[*place[id]].sightings;
       if (sightings.empty() && !made[id]) continue;
       sightings.push_back({scan.truth->time, truth, made[id]});
     }
@@ -90,7 +90,7 @@ double ErrorSum::rmse_velocity() const { return root_mean(velocity, scans); }
 
 ErrorSum measured_errors(Filter filter, const SightedObject& object) {
   ErrorSum sum;
-  const auto advance = [&](const Sighting& sighting, double dt) {
+  const auto advance = [&](const ObjectScan& sighting, double dt) {
     if (dt > 0.0) predict(filter, dt);
     if (!sighting.detection) {
       coast(filter);
@@ -100,7 +100,7 @@ ErrorSum measured_errors(Filter filter, const SightedObject& object) {
       start(filter, sighting.detection->position, sighting.detection->covariance);
     }
   };
-  walk(object, advance, [&](const Sighting& sighting) {
+  walk(object, advance, [&](const ObjectScan& sighting) {
     const Kinematics<2>& state = estimate(filter);
     sum.position += (state.position - sighting.truth.position).squaredNorm();
     sum.velocity += (state.velocity - sighting.truth.velocity).squaredNorm();
@@ -111,7 +111,7 @@ ErrorSum measured_errors(Filter filter, const SightedObject& object) {
 
 ErrorSum expected_errors(GainFilter<2> filter, const SightedObject& object) {
   ErrorSum sum;
-  const auto advance = [&](const Sighting& sighting, double dt) {
+  const auto advance = [&](const ObjectScan& sighting, double dt) {
     if (dt > 0.0) filter.predict(dt);
     if (!sighting.detection) {
       filter.coast();
@@ -121,7 +121,7 @@ ErrorSum expected_errors(GainFilter<2> filter, const SightedObject& object) {
       filter.start(sighting.truth.position, sighting.detection->covariance);
     }
   };
-  walk(object, advance, [&](const Sighting& sighting) {
+  walk(object, advance, [&](const ObjectScan& sighting) {
     sum.position += (filter.estimate().position - sighting.truth.position).squaredNorm() +
                     filter.noise_sigma().squaredNorm();
     sum.velocity += (filter.estimate().velocity - sighting.truth.velocity).squaredNorm() +

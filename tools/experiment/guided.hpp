@@ -16,7 +16,7 @@
 namespace ghtrack {
 
 /// One scan as far as it concerns one object.
-struct Sighting {
+struct ObjectScan {
   double time = 0.0;  // [s]
   TruthState truth;
   std::optional<Detection> detection;  // made by the object
@@ -25,7 +25,7 @@ struct Sighting {
 /// An object from its first detection to its end.
 struct SightedObject {
   ObjectId id = 0;
-  std::vector<Sighting> sightings;
+  std::vector<ObjectScan> sightings;
 };
 
 /// The first objects of each regime, at least one: as many as make about so many sightings in a
