@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "scenes/schema/configuration.hpp"
+#include "scenes/schema/descriptions.hpp"
 #include "scenes/schema/json_schema.hpp"
 #include "scenes/schema/reader.hpp"
 #include "scenes/schema/reference.hpp"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scenes/schema/configuration.hpp"
+#include "scenes/schema/descriptions.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/progress.hpp"

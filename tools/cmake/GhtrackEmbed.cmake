@@ -10,5 +10,6 @@ function(ghtrack_embed target name file)
     DEPENDS "${file}" "${CMAKE_SOURCE_DIR}/tools/cmake/embed_file.cmake"
     COMMENT "Embedding ${name}"
     VERBATIM)
+  set_source_files_properties("${source}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
   target_sources(${target} PRIVATE "${source}")
 endfunction()
