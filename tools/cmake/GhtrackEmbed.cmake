@@ -6,8 +6,8 @@ function(ghtrack_embed target name file)
   add_custom_command(
     OUTPUT "${source}"
     COMMAND "${CMAKE_COMMAND}" "-DINPUT=${file}" "-DOUTPUT=${source}" "-DNAME=${name}" -P
-            "${CMAKE_SOURCE_DIR}/tools/cmake/embed_file.cmake"
-    DEPENDS "${file}" "${CMAKE_SOURCE_DIR}/tools/cmake/embed_file.cmake"
+            "${PROJECT_SOURCE_DIR}/tools/cmake/embed_file.cmake"
+    DEPENDS "${file}" "${PROJECT_SOURCE_DIR}/tools/cmake/embed_file.cmake"
     COMMENT "Embedding ${name}"
     VERBATIM)
   set_source_files_properties("${source}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)

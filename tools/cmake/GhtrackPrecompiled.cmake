@@ -30,7 +30,7 @@ set(ghtrack_common_headers
 #   target_precompile_headers(<target> REUSE_FROM <name>)
 function(ghtrack_precompile name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;LINK")
-  set(source "${CMAKE_BINARY_DIR}/precompiled/${name}.cpp")
+  set(source "${PROJECT_BINARY_DIR}/precompiled/${name}.cpp")
   file(CONFIGURE OUTPUT "${source}" CONTENT "// Carries precompiled headers.\n")
   add_library(${name} OBJECT "${source}")
   target_link_libraries(${name} PRIVATE ghtrack_options Eigen3::Eigen ${arg_LINK})

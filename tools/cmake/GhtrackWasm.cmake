@@ -17,7 +17,7 @@ set(GHTRACK_WASM_FLAGS
 # Whether a program with a container and an exported function can be compiled and linked.
 function(ghtrack_find_wasm variable)
   if(NOT DEFINED GHTRACK_WASM_WORKS)
-    set(probe "${CMAKE_BINARY_DIR}/CMakeFiles/wasm_probe")
+    set(probe "${PROJECT_BINARY_DIR}/CMakeFiles/wasm_probe")
     file(WRITE "${probe}.cpp" "#include <vector>\n#include <cmath>\n"
          "extern \"C\" [[clang::export_name(\"f\")]] double f(int n) {\n"
          "  return std::sqrt(std::vector<double>(n, 2.0).back());\n}\n")
@@ -47,14 +47,14 @@ function(ghtrack_add_wasm wasm)
   list(TRANSFORM arg_DEFINITIONS PREPEND -D)
   set(objects)
   foreach(source IN LISTS arg_SOURCES)
-    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY "${CMAKE_SOURCE_DIR}")
-    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${CMAKE_SOURCE_DIR}" OUTPUT_VARIABLE name)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}")
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE name)
     string(REPLACE "/" "_" name "${name}")
     set(object "${CMAKE_CURRENT_BINARY_DIR}/wasm/${name}.o")
     add_custom_command(
       OUTPUT "${object}"
       COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${GHTRACK_WASM_CXX}" ${GHTRACK_WASM_FLAGS}
-              "-I${CMAKE_SOURCE_DIR}" ${arg_INCLUDES} ${arg_DEFINITIONS} -MD -MF "${object}.d" -c "${source}" -o "${object}"
+              "-I${PROJECT_SOURCE_DIR}" ${arg_INCLUDES} ${arg_DEFINITIONS} -MD -MF "${object}.d" -c "${source}" -o "${object}"
       DEPENDS "${source}"
       DEPFILE "${object}.d"
       COMMENT "Building WebAssembly object ${name}"

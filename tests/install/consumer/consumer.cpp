@@ -1,4 +1,4 @@
-#include "tracker/filters/gain_filter.hpp"
+#include <ghtrack/tracker/filters/gain_filter.hpp>
 
 /// A ramp of slope 2 measured without error: the g-h filter must follow it without lag.
 int main() {

@@ -1,0 +1,17 @@
+# cmake -DREADME=… -DFOLDER=… -P extract_example.cmake: writes the README's example of a project that
+# uses the library, a block of CMake and one of C++, into a folder.
+file(READ "${README}" text)
+foreach(pair "cmake CMakeLists.txt" "cpp example.cpp")
+  separate_arguments(pair UNIX_COMMAND "${pair}")
+  list(GET pair 0 language)
+  list(GET pair 1 name)
+  string(FIND "${text}" "```${language}\n" begin)
+  if(begin EQUAL -1)
+    message(FATAL_ERROR "No block of ${language} in ${README}")
+  endif()
+  string(SUBSTRING "${text}" ${begin} -1 block)
+  string(REGEX REPLACE "^```[a-z]+\n" "" block "${block}")
+  string(FIND "${block}" "```" end)
+  string(SUBSTRING "${block}" 0 ${end} block)
+  file(WRITE "${FOLDER}/${name}" "${block}")
+endforeach()
