@@ -3,6 +3,7 @@
 
 set(ghtrack_common_headers
     <Eigen/Core>
+    <Eigen/Geometry>
     <algorithm>
     <array>
     <charconv>
@@ -21,6 +22,7 @@ set(ghtrack_common_headers
     <stdexcept>
     <string>
     <string_view>
+    <tuple>
     <utility>
     <variant>
     <vector>)
