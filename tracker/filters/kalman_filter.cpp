@@ -10,19 +10,32 @@
 namespace ghtrack {
 namespace {
 
+// The algebra is written by coefficients: loops of constant length run as fast as Eigen's
+// expressions on blocks, which would take the compiler a minute for six kinds of state.
+
+/// term(0) + … + term(D − 1).
+template <int D, class Term>
+double sum_over(const Term& term) {
+  double sum = term(0);
+  for (int m = 1; m < D; ++m) sum += term(m);
+  return sum;
+}
+
 /// P ← F P Fᵀ for motion under constant velocity or acceleration.
 template <int Order, int D, class Covariance>
 void extrapolate(Covariance& p, double dt) {
-  p.template middleRows<D>(0) += dt * p.template middleRows<D>(D);
-  if constexpr (Order == 2) {
-    p.template middleRows<D>(0) += (0.5 * dt * dt) * p.template middleRows<D>(2 * D);
-    p.template middleRows<D>(D) += dt * p.template middleRows<D>(2 * D);
-  }
-  p.template middleCols<D>(0) += dt * p.template middleCols<D>(D);
-  if constexpr (Order == 2) {
-    p.template middleCols<D>(0) += (0.5 * dt * dt) * p.template middleCols<D>(2 * D);
-    p.template middleCols<D>(D) += dt * p.template middleCols<D>(2 * D);
-  }
+  constexpr int kStates = (Order + 1) * D;
+  const auto advance = [dt](auto&& derivative) {  // of one row or column, in place
+    for (int axis = 0; axis < D; ++axis) derivative(axis) += dt * derivative(axis + D);
+    if constexpr (Order == 2) {
+      for (int axis = 0; axis < D; ++axis) {
+        derivative(axis) += (0.5 * dt * dt) * derivative(axis + 2 * D);
+        derivative(axis + D) += dt * derivative(axis + 2 * D);
+      }
+    }
+  };
+  for (int j = 0; j < kStates; ++j) advance([&](int i) -> double& { return p(i, j); });
+  for (int i = 0; i < kStates; ++i) advance([&](int j) -> double& { return p(i, j); });
 }
 
 template <int Order, int D, class Covariance>
@@ -125,20 +138,43 @@ bool KalmanFilter<Order, D>::update(const Vector& z, const Matrix& covariance) {
   // it takes for the pull of the limit itself (Huber 1964).
   const double doubt = std::max(1.0, std::sqrt(nis) / model_.huber);
   const Matrix r = doubt > 1.0 ? Matrix(doubt * s - predicted) : covariance;
-  const Eigen::Matrix<double, kStates, D> gain =
-      covariance_.template leftCols<D>() * (inverse / doubt);
-
-  const Eigen::Matrix<double, kStates, 1> change = gain * residual;
+  const Matrix weight = inverse / doubt;
+  Eigen::Matrix<double, kStates, D> gain;
+  Eigen::Matrix<double, kStates, D> weighted;  // K R
+  Eigen::Matrix<double, kStates, 1> change;
+  for (int i = 0; i < kStates; ++i) {
+    for (int j = 0; j < D; ++j) {
+      gain(i, j) = sum_over<D>([&](int m) { return covariance_(i, m) * weight(m, j); });
+    }
+    for (int j = 0; j < D; ++j) {
+      weighted(i, j) = sum_over<D>([&](int m) { return gain(i, m) * r(m, j); });
+    }
+    change[i] = sum_over<D>([&](int m) { return gain(i, m) * residual[m]; });
+  }
   Kinematics<D> next = estimate_;
-  next.position += change.template head<D>();
-  next.velocity += change.template segment<D>(D);
-  if constexpr (Order == 2) next.acceleration += change.template tail<D>();
+  for (int axis = 0; axis < D; ++axis) {
+    next.position[axis] += change[axis];
+    next.velocity[axis] += change[axis + D];
+    if constexpr (Order == 2) next.acceleration[axis] += change[axis + 2 * D];
+  }
 
-  Covariance p = covariance_;  // (I − K H) P, then times (I − K H)ᵀ, then + K R Kᵀ
-  p -= gain * covariance_.template topRows<D>();
-  p -= p.template leftCols<D>().eval() * gain.transpose();
-  p += gain * r * gain.transpose();
-  p = 0.5 * (p + p.transpose()).eval();
+  Covariance half;  // (I − K H) P, then times (I − K H)ᵀ, then + K R Kᵀ
+  Covariance p;
+  for (int j = 0; j < kStates; ++j) {
+    for (int i = 0; i < kStates; ++i) {
+      half(i, j) =
+          covariance_(i, j) - sum_over<D>([&](int m) { return gain(i, m) * covariance_(m, j); });
+    }
+  }
+  for (int j = 0; j < kStates; ++j) {
+    for (int i = 0; i < kStates; ++i) {
+      p(i, j) = half(i, j) - sum_over<D>([&](int m) { return half(i, m) * gain(j, m); });
+      p(i, j) += sum_over<D>([&](int m) { return weighted(i, m) * gain(j, m); });
+    }
+  }
+  for (int j = 0; j < kStates; ++j) {
+    for (int i = 0; i < j; ++i) p(i, j) = p(j, i) = 0.5 * (p(i, j) + p(j, i));
+  }
   if (!std::isfinite(nis) || !next.is_finite() || !p.allFinite()) return refuse_measurement();
 
   prior_ = estimate_;
