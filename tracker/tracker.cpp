@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -82,18 +83,6 @@ void assign(const TrackerConfig& config, const std::vector<std::size_t>& tracks,
   for (std::size_t row = 0; row < tracks.size(); ++row) pairing.pair(tracks[row], assignment[row]);
 }
 
-/// The same when the simulation tells which object made which detection.
-void assign_by_identity(const std::vector<Track>& tracks, std::span<const int> identities,
-                        const DetectionGrid& grid, Pairing& pairing) {
-  const auto& members = grid.members();
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const auto mine = std::find_if(members.begin(), members.end(), [&](const auto& member) {
-      return identities[member.detection] == tracks[i].identity;
-    });
-    pairing.pair(i, mine != members.end() ? static_cast<int>(mine - members.begin()) : kMissed);
-  }
-}
-
 /// Confirms, and says whether the track lives on.
 bool survives(const TrackerConfig& config, Track& track) {
   if (track.unseen >= config.drop_unseen) return false;
@@ -155,6 +144,9 @@ FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) 
 
 TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors)
     : config_(std::move(config)), sensors_(std::move(sensors)) {
+  if (config_.association == Association::kKnown) {
+    throw std::invalid_argument("a tracker cannot know which object a detection is of");
+  }
   std::map<std::string, FilterConfig> by_label = config_.filters;
   by_label.try_emplace(std::string(TrackerConfig::kDefaultFilter), default_filter(config_.filters));
   for (const SensorTraits& sensor : sensors_) {
@@ -173,15 +165,16 @@ const Filter& TrackerDesign::filter_for(std::string_view label, int sensor) cons
 }
 
 TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& scan,
-                  std::span<const int> identities, StepTimes* times) {
+                  StepTimes* times) {
   StepClock clock(times);
   const TrackerConfig& config = design.config();
   const SensorTraits& sensor = design.sensor(scan.sensor);
-  const bool is_known = config.association == Association::kKnown;
   if (!(scan.time >= state.time) || !std::isfinite(scan.time)) {
     ++state.scans_refused;
+    state.fate = ScanFate::kRefused;
     return state;
   }
+  state.fate = ScanFate::kProcessed;
   const double dt = scan.time - state.time;
   state.time = scan.time;
   state.sensor = scan.sensor;
@@ -193,7 +186,6 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
   Stage confirmed(tracks.size()), tentative(0);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     predict(tracks[i], dt);
-    if (is_known) continue;
     Stage& stage = tracks[i].status == TrackStatus::kTentative ? tentative : confirmed;
     stage.add(i, tracks[i], grid, config.gate);
   }
@@ -201,13 +193,8 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
   clock.finished(&StepTimes::predict);
 
   Pairing pairing(tracks.size(), members.size());
-  if (is_known) {
-    assign_by_identity(tracks, identities, grid, pairing);
-  } else {
-    assign(config, confirmed.tracks, confirmed.table, pairing);
-    assign(config, tentative.tracks, still_free(tentative.table, pairing), pairing);
-  }
-
+  assign(config, confirmed.tracks, confirmed.table, pairing);
+  assign(config, tentative.tracks, still_free(tentative.table, pairing), pairing);
   note_rivals(config.merge, confirmed.tracks, confirmed.table, pairing, tracks);
   clock.finished(&StepTimes::associate);
 
@@ -227,11 +214,9 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
   clock.finished(&StepTimes::update);
 
   for (std::size_t i = 0; i < members.size(); ++i) {
+    if (pairing.track_of[i] != kMissed) continue;
     const auto index = static_cast<std::size_t>(members[i].detection);
-    const int identity = is_known ? identities[index] : Track::kUnknown;
-    if (pairing.track_of[i] != kMissed || (is_known && identity == Track::kUnknown)) continue;
     tracks.push_back(begin_track(design, state.next_id++, scan, index));
-    tracks.back().identity = identity;
   }
   clock.finished(&StepTimes::begin);
   return state;

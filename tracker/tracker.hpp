@@ -4,12 +4,12 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "sensors/detection.hpp"
+#include "tracker/arrival.hpp"
 #include "tracker/filters/filter.hpp"
 #include "tracker/gate.hpp"
 #include "tracker/hit_history.hpp"
@@ -33,15 +33,13 @@ struct Track {
   Prediction prediction;                                            // of this scan's detection
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of this scan's residual [m²]
   std::optional<Eigen::Vector2d> residual;                          // of this scan's detection
-  int identity = kUnknown;  // association: known; the object it belongs to
-
-  static constexpr int kUnknown = -1;
 };
 
 /// Everything that a tracker remembers. A value: copies run on independently.
 struct TrackerState {
   double time = -std::numeric_limits<double>::infinity();  // of the latest scan [s]
   int sensor = 0;                                          // of the latest scan
+  ScanFate fate = ScanFate::kProcessed;                    // of the latest scan that it was given
   int next_id = 1;
   std::vector<Track> tracks;            // in the order of birth
   std::int64_t scans_refused = 0;       // older than the latest scan, or without a finite time
@@ -53,7 +51,8 @@ struct TrackerState {
 class TrackerDesign {
  public:
   /// @param sensors  the data sheets, by Scan::sensor
-  /// @throws std::invalid_argument if a filter cannot be designed, such as for unstable gains
+  /// @throws std::invalid_argument if a filter cannot be designed, such as for unstable gains, or
+  ///         the association is `known`: who knows it decorates a tracker that does not
   TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors);
 
   const TrackerConfig& config() const { return config_; }
@@ -80,11 +79,9 @@ class TrackerDesign {
 ///               leftover detection starts a track
 /// A scan that is older than the latest one, and a detection that is not usable, is refused and
 /// counted. A miss counts only where the sensor could have seen the target.
-/// @param identities  for `association: known`: the object behind each detection of the scan,
-///                    Track::kUnknown for clutter; ignored otherwise
-/// @param times       where to add the time of each stage; the result does not depend on it
+/// @param times  where to add the time of each stage; the result does not depend on it
 TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& scan,
-                  std::span<const int> identities = {}, StepTimes* times = nullptr);
+                  StepTimes* times = nullptr);
 
 /// What the tracker says after its latest scan.
 TrackSnapshot snapshot(const TrackerState& state);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -107,6 +108,32 @@ TEST(Layers, NoFolderIncludesWhatItMustNotKnow) {
   for (const char* folder : {"sim", "sensors", "tracker", "scenes", "tools"}) {
     EXPECT_THAT(forbidden_includes(GHTRACK_SOURCE_DIR, folder), testing::IsEmpty());
   }
+}
+
+/// The files below a folder that mention a word.
+std::vector<std::string> files_with(const fs::path& root, const std::string& folder,
+                                    const std::regex& word) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream text(entry.path());
+    for (std::string line; std::getline(text, line);) {
+      if (!std::regex_search(line, word)) continue;
+      found.push_back(fs::relative(entry.path(), root).string());
+      break;
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// Property: who made a detection is the business of those who score and show, and of the decorator
+// for known association; a tracker has no way of being told.
+TEST(Layers, TheTrackerIsNeverToldWhoMadeADetection) {
+  const std::regex origin(R"(\borigins?\b|\bidentit|\bObjectId\b|\bObservation\b)");
+  EXPECT_THAT(files_with(GHTRACK_SOURCE_DIR, "tracker", origin), testing::IsEmpty());
+  EXPECT_THAT(files_with(GHTRACK_SOURCE_DIR, "tools/pipeline", std::regex(R"(\borigins\b)")),
+              testing::ElementsAre("tools/pipeline/known_association.cpp"));
 }
 
 // Derived: the rules themselves, on made-up includes.

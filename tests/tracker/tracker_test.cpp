@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
 namespace ghtrack {
 namespace {
@@ -150,21 +151,11 @@ TEST(Tracker, RefusesAndCountsWhatItCannotUse) {
   EXPECT_EQ(state.detections_refused, 2);
 }
 
-// Derived: with known identities two targets that cross exactly never swap their tracks.
-TEST(Tracker, KnownAssociationFollowsIdentitiesThroughACrossing) {
+// Derived: only who simulates knows whose detection it is; the tracker cannot be asked for it.
+TEST(Tracker, CannotKnowWhoIsWho) {
   TrackerConfig config;
   config.association = Association::kKnown;
-  const TrackerDesign tracker = design(config);
-  TrackerState state;
-  for (int i = -20; i <= 20; ++i) {
-    const std::vector<int> identities = {4, 9};
-    const Scan scan = scan_of(kPeriod * (i + 20), {Vector2d(i, 0), Vector2d(-i, 0)});
-    state = step(tracker, std::move(state), scan, identities);
-  }
-  ASSERT_EQ(state.tracks.size(), 2U);
-  EXPECT_EQ(state.tracks[0].identity, 4);
-  EXPECT_GT(estimate(state.tracks[0].filter).velocity.x(), 0.0);
-  EXPECT_LT(estimate(state.tracks[1].filter).velocity.x(), 0.0);
+  EXPECT_THROW(design(config), std::invalid_argument);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 
 #include "tools/experiment/guided.hpp"
 #include "tracker/filters/gains/analysis.hpp"
-#include "tracker/replay.hpp"
 
 namespace ghtrack {
 namespace {
@@ -117,7 +116,8 @@ std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
 class ExampleRecorder {
  public:
   explicit ExampleRecorder(const Trial& trial)
-      : trial_(trial), trackers_(trial.contenders().size()), tracks_(trackers_.size()) {
+      : trial_(trial), tracks_(trial.contenders().size()) {
+    for (std::size_t i = 0; i < tracks_.size(); ++i) trackers_.push_back(trial.tracker(i));
     for (const ObjectInfo& object : trial.objects()) {
       example_.truth.push_back({object.name, object.regime, {}});
     }
@@ -137,14 +137,12 @@ class ExampleRecorder {
   }
 
   void track(const SensedScan& sensed) {
-    const Observation& observation = sensed.observation;
     for (std::size_t i = 0; i < trackers_.size(); ++i) {
-      trackers_[i] =
-          step(trial_.design(i), std::move(trackers_[i]), observation.scan, observation.origins);
-      for (const Track& track : trackers_[i].now.tracks) {
+      trackers_[i].step(sensed.observation);
+      const TrackSnapshot now = trackers_[i].snapshot();
+      for (const TrackEstimate& track : now.tracks) {
         if (track.status == TrackStatus::kTentative) continue;
-        tracks_[i][track.id].push_back(
-            point(trackers_[i].now.time, estimate(track.filter).position));
+        tracks_[i][track.id].push_back(point(now.time, track.position));
       }
     }
   }
@@ -181,7 +179,7 @@ class ExampleRecorder {
   }
 
   const Trial& trial_;
-  std::vector<ReplayState> trackers_;
+  std::vector<SceneTracker> trackers_;
   std::vector<std::map<int, std::vector<ExampleRun::Point>>> tracks_;  // by contender and track
   ExampleRun example_;
 };

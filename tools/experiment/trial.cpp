@@ -7,7 +7,6 @@
 
 #include "sensors/sensor.hpp"
 #include "tools/pipeline/simulation.hpp"
-#include "tracker/replay.hpp"
 
 namespace ghtrack {
 namespace {
@@ -74,6 +73,7 @@ class Attempt {
   Attempt(const Trial& trial, std::size_t contender)
       : trial_(trial),
         contender_(contender),
+        tracker_(trial.tracker(contender)),
         metrics_(trial.objects(), trial.scoring()),
         bins_(trial.regimes().size() * TrialLayout::kBins) {
     for (const ObjectInfo& object : trial.objects()) {
@@ -85,11 +85,9 @@ class Attempt {
   void sense(const SensedScan& scan) { metrics_.add_observation(*scan.truth, scan.observation); }
 
   void track(const SensedScan& sensed) {
-    const Scan& scan = sensed.observation.scan;
-    state_ = step(trial_.design(contender_), std::move(state_), scan, sensed.observation.origins);
-    if (!has_processed_last(state_, scan)) return;
-    metrics_.add_tracks({*sensed.truth, sensed.observation, snapshot(state_.now)});
-    const double share = scan.time / trial_.scene().duration;
+    if (tracker_.step(sensed.observation) != ScanFate::kProcessed) return;
+    metrics_.add_tracks({*sensed.truth, sensed.observation, tracker_.snapshot()});
+    const double share = sensed.observation.scan.time / trial_.scene().duration;
     const std::size_t bin = std::min(TrialLayout::kBins - 1,
                                      static_cast<std::size_t>(share * double{TrialLayout::kBins}));
     for (std::size_t i = 0; i < regime_of_.size(); ++i) {
@@ -170,7 +168,7 @@ class Attempt {
 
   const Trial& trial_;
   std::size_t contender_;
-  ReplayState state_;
+  SceneTracker tracker_;
   RunMetrics metrics_;
   std::vector<std::size_t> regime_of_;  // by object
   std::vector<WeightedMean> bins_;      // by regime and time
@@ -192,7 +190,7 @@ Trial::Trial(const WorldScene& scene, std::function<void()> on_step)
   for (const Contender& contender : contenders_) {
     TrackerConfig config = scene.tracker;
     config.filters = contender.filters;
-    designs_.emplace_back(std::move(config), traits_of(scene.sensors));
+    trackers_.emplace_back(std::move(config), traits_of(scene.sensors));
   }
   objects_ = world_of_run(scene, 0).objects();
   regimes_ = regimes_of(objects_);

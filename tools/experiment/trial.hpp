@@ -10,8 +10,8 @@
 #include "tools/experiment/campaign.hpp"
 #include "tools/experiment/metric.hpp"
 #include "tools/metrics/run_metrics.hpp"
+#include "tools/pipeline/scene_tracker.hpp"
 #include "tools/pipeline/sensing.hpp"
-#include "tracker/tracker.hpp"
 
 namespace ghtrack {
 
@@ -68,7 +68,9 @@ class Trial {
   const std::vector<Contender>& contenders() const { return contenders_; }
   const std::vector<Subject>& subjects() const { return subjects_; }
   const std::vector<std::string>& regimes() const { return regimes_; }
-  const TrackerDesign& design(std::size_t contender) const { return designs_.at(contender); }
+  const TrackerDesign& design(std::size_t contender) const { return tracker(contender).design(); }
+  /// A contender's tracker before its first scan: copy it for a run.
+  const SceneTracker& tracker(std::size_t contender) const { return trackers_.at(contender); }
   const RunMetricsOptions& scoring() const { return scoring_; }
   TrialLayout layout() const { return {contenders_.size(), subjects_.size(), regimes_.size()}; }
 
@@ -91,7 +93,7 @@ class Trial {
   std::function<void()> on_step_;
   std::vector<ObjectInfo> objects_;
   std::vector<Contender> contenders_;
-  std::vector<TrackerDesign> designs_;
+  std::vector<SceneTracker> trackers_;
   std::vector<std::string> regimes_;
   std::vector<Subject> subjects_;
   RunMetricsOptions scoring_;

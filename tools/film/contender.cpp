@@ -16,20 +16,20 @@ TrackerConfig with_filter(TrackerConfig tracker, const FilterConfig& filter) {
 
 Contender::Contender(const WorldScene& scene, const std::string& name, TrackerConfig tracker)
     : drawing_{.name = name, .gains = {}},
-      design_(std::move(tracker), traits_of(scene.sensors)),
+      tracker_(std::move(tracker), traits_of(scene.sensors)),
       score_(scoring_for(traits_of(scene.sensors)).gospa()) {
-  const Filter& designed = design_.filter_for(TrackerConfig::kDefaultFilter, 0);
+  const Filter& designed = tracker_.design().filter_for(TrackerConfig::kDefaultFilter, 0);
   drawing_.gains = fmt::format("{} {}", ghtrack::name(designed), gains_text(designed));
 }
 
 void Contender::add(const Observation& observation) {
-  state_ = step(design_, std::move(state_), observation.scan, observation.origins);
+  tracker_.step(observation);
 }
 
-void Contender::score(const TruthSnapshot& truth) { score_.add(truth, snapshot(state_.now)); }
+void Contender::score(const TruthSnapshot& truth) { score_.add(truth, tracker_.snapshot()); }
 
 render::PanelFrame Contender::frame() const {
-  return {.tracks = snapshot(state_.now),
+  return {.tracks = tracker_.snapshot(),
           .pairings = score_.pairings(),
           .gospa = score_.gospa(),
           .rmse = score_.rmse()};

@@ -5,8 +5,8 @@
 
 #include "scenes/schema/scene.hpp"
 #include "tools/film/running_score.hpp"
+#include "tools/pipeline/scene_tracker.hpp"
 #include "tools/render/video.hpp"
-#include "tracker/replay.hpp"
 
 namespace ghtrack::film {
 
@@ -33,9 +33,8 @@ class Contender {
 
  private:
   render::PanelDrawing drawing_;
-  TrackerDesign design_;
+  SceneTracker tracker_;
   RunningScore score_;
-  ReplayState state_;
 };
 
 /// One for each filter under `compare` in the scene.

@@ -38,7 +38,7 @@ TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> sc
   const Eigen::Matrix2d covariance = config.noise * config.noise * Eigen::Matrix2d::Identity();
   TrackerState state;
   const auto process = [&](const Scan& scan) {
-    state = step(design, std::move(state), scan, {}, times);
+    state = step(design, std::move(state), scan, times);
     on_scan(snapshot(state));
   };
   for (std::size_t i = 0; i < scans.size(); ++i) {

@@ -53,6 +53,9 @@ struct OfflineConfig {
   template <class Report>
   void check(Report&& report) const {
     check_field_of_view(field_of_view, report);
+    if (tracker.association == Association::kKnown) {
+      report("tracker.association", "'known' needs a simulation: a file does not say who is who");
+    }
   }
 };
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "sensors/sensor.hpp"
+#include "tools/pipeline/scene_tracker.hpp"
 #include "tools/pipeline/sensing.hpp"
-#include "tracker/replay.hpp"
 
 namespace ghtrack {
 namespace {
@@ -22,7 +22,7 @@ class Run {
       : scene_(scene),
         world_(world),
         listener_(listener),
-        design_(scene.tracker, traits_of(scene.sensors)) {}
+        tracker_(scene.tracker, traits_of(scene.sensors)) {}
 
   RunCounts to_the_end() {
     const Setting setting{
@@ -42,10 +42,8 @@ class Run {
  private:
   void deliver(SensedScan sensed) {
     show_frames_before(sensed.arrival);
-    const Scan& scan = sensed.observation.scan;
-    tracker_ = step(design_, std::move(tracker_), scan, sensed.observation.origins);
-    if (has_processed_last(tracker_, scan)) {
-      listener_.on_scan({*sensed.truth, std::move(sensed.observation), snapshot(tracker_.now)});
+    if (tracker_.step(sensed.observation) == ScanFate::kProcessed) {
+      listener_.on_scan({*sensed.truth, std::move(sensed.observation), tracker_.snapshot()});
     } else if (listener_.on_late_scan) {
       listener_.on_late_scan(sensed.observation);
     }
@@ -60,10 +58,10 @@ class Run {
 
   RunCounts counts() const {
     RunCounts counts;
-    counts.detections_refused = tracker_.now.detections_refused;
+    counts.detections_refused = tracker_.detections_refused();
     for (std::size_t i = 0; i < scene_.sensors.size(); ++i) {
       counts.sensors.push_back({scene_.sensors[i].name, {}});
-      if (i < tracker_.arrivals.size()) counts.sensors.back().scans = tracker_.arrivals[i];
+      if (i < tracker_.arrivals().size()) counts.sensors.back().scans = tracker_.arrivals()[i];
     }
     return counts;
   }
@@ -71,8 +69,7 @@ class Run {
   const WorldScene& scene_;
   World& world_;
   const Listener& listener_;
-  TrackerDesign design_;
-  ReplayState tracker_;
+  SceneTracker tracker_;
   std::size_t frame_ = 0;  // the next one
 };
 

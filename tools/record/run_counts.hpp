@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tracker/replay.hpp"
+#include "tracker/arrival.hpp"
 
 namespace ghtrack {
 
