@@ -137,6 +137,10 @@ void track_sequences(const TrackOptions& options, const OfflineConfig& config, S
       stop_if_interrupted();
       return track_boxes(config.boxes, config.box_output, detections);
     });
+    if (!manners.quiet) {
+      fmt::print(stderr, "ghtrack: {}: {}\n", sequence.name,
+                 summary(config.boxes, detections, tracks));
+    }
     report_refusals(tracks.state, manners);
     times.of(StageTimes::kWrite, [&] {
       std::string rows;

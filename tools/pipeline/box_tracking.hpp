@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tools/record/mot_file.hpp"
@@ -8,27 +10,37 @@
 
 namespace ghtrack {
 
-/// What is written of the tracks of a whole sequence, which is known to its end before a row of it
-/// is needed.
+/// What is written of the tracks of a sequence. By default each row follows from its image and
+/// those before, as if it had been written then.
 struct BoxOutputConfig {
   static constexpr std::string_view about = "which boxes are written for the tracks of a sequence";
 
-  bool from_first_sight = true;
-  int longest_gap = 8;
-  int coast = 0;
+  bool fill = false;
+  std::optional<bool> from_first_sight = {};
+  std::optional<int> longest_gap = {};
+  std::optional<int> coast = {};
+
+  /// With `fill`, gaps up to this are closed where nothing else is said.
+  static constexpr int kLongestGap = 30;
 
   template <class Visitor>
   static void describe(Visitor& v) {
+    v.field("fill", &BoxOutputConfig::fill,
+            {.meaning = "what was known later is written as well: the boxes of a track from before "
+                        "it was confirmed, and boxes in between where it was not seen for up to 30 "
+                        "images; the output is then no longer causal"});
     v.field("from_first_sight", &BoxOutputConfig::from_first_sight,
-            {.meaning = "once a track is confirmed, its boxes from before are written too"});
+            {.meaning = "once a track is confirmed, its boxes from before are written too; by "
+                        "default as `fill` says"});
     v.field("longest_gap", &BoxOutputConfig::longest_gap,
             {.meaning = "images without a detection that are filled with boxes in between when the "
-                        "track has been seen again; 0: none",
+                        "track has been seen again; 0: none; by default as `fill` says",
              .minimum = 0,
              .maximum = 1e6});
     v.field("coast", &BoxOutputConfig::coast,
-            {.meaning = "images after the last detection of a track for which its predicted box is "
-                        "written",
+            {.meaning = "images after a detection of a track for which its predicted box is "
+                        "written; by default as many as predictions have come true for more often "
+                        "than not so far",
              .minimum = 0,
              .maximum = 1e6});
   }
@@ -37,12 +49,16 @@ struct BoxOutputConfig {
 /// The tracks of a sequence of boxes.
 struct BoxTracks {
   std::vector<MotRow> rows;  // by frame, then id; ids count from 1 in the order of appearance
-  BoxTrackerState state;     // at the end, with the counts of what was refused
+  BoxTrackerState state;     // at the end, with what was learned and the counts of what was refused
 };
 
 /// Tracks the boxes of a sequence.
 /// @param detections  by frame
 BoxTracks track_boxes(const BoxTrackerConfig& config, const BoxOutputConfig& output,
                       std::span<const MotRow> detections);
+
+/// One line for people: what was read, what the filters assumed in the end, what came out.
+std::string summary(const BoxTrackerConfig& config, std::span<const MotRow> detections,
+                    const BoxTracks& tracks);
 
 }  // namespace ghtrack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 namespace ghtrack {
 
@@ -17,6 +18,19 @@ struct BoundingBox {
 inline BoundingBox between(const BoundingBox& from, const BoundingBox& to, double fraction) {
   return {from.centre + fraction * (to.centre - from.centre),
           from.size + fraction * (to.size - from.size)};
+}
+
+/// Intersection over union, 0 … 1.
+inline double overlap(const BoundingBox& a, const BoundingBox& b) {
+  const auto shared = [&](int axis) {
+    const double low =
+        std::max(a.centre[axis] - 0.5 * a.size[axis], b.centre[axis] - 0.5 * b.size[axis]);
+    const double high =
+        std::min(a.centre[axis] + 0.5 * a.size[axis], b.centre[axis] + 0.5 * b.size[axis]);
+    return std::max(0.0, high - low);
+  };
+  const double both = shared(0) * shared(1);
+  return both > 0.0 ? both / (a.area() + b.area() - both) : 0.0;
 }
 
 }  // namespace ghtrack

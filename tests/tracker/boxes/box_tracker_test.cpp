@@ -51,24 +51,110 @@ std::vector<BoxScan> street(int images, double zoom, const Vector2d& shift) {
   return scans;
 }
 
-// Derived: the fourth hit confirms; a confirmed track coasts on at its velocity and ends when it
-// has not been seen for 20 images.
-TEST(BoxTracker, ConfirmsCoastsAndLetsGo) {
+/// Boxes far away in the first image, so that what follows was not there from the start.
+BoxScan first_image() { return scan_of(0, {box_at(5000, 5000)}); }
+
+const BoxTrack& youngest(const BoxTrackerState& state) { return state.tracks.back(); }
+
+// Derived: log odds of existence start at ln(0.12 / 0.88) = -2 and rise by 2.5 with every box, so
+// the third one lifts them above ln(0.88 / 0.12) = 2. They rise to 8 at most, and fall by
+// -ln(1 - 0.45) = 0.6 in every image without a box: 22 such images end below ln(0.0067) = -5.
+TEST(BoxTracker, ConfirmsCoastsAndLetsGoByTheProbabilityOfExistence) {
   const BoxTrackerConfig config;
-  BoxTrackerState state;
+  BoxTrackerState state = follow(config, {first_image()});
   for (int i = 1; i <= 40; ++i) {
     state = step(config, std::move(state), scan_of(i, {box_at(3.0 * i, 50)}));
-    ASSERT_EQ(state.tracks.size(), 1U);
-    EXPECT_EQ(state.tracks[0].status, i < 4 ? TrackStatus::kTentative : TrackStatus::kConfirmed);
+    EXPECT_EQ(youngest(state).status, i < 3 ? TrackStatus::kTentative : TrackStatus::kConfirmed);
   }
-  for (int i = 41; i < 60; ++i) {
+  EXPECT_NEAR(youngest(state).log_odds, 8.0, 1e-9);
+  for (int i = 41; i <= 61; ++i) {
     state = step(config, std::move(state), scan_of(i, {}));
     ASSERT_EQ(state.tracks.size(), 1U);
-    EXPECT_EQ(state.tracks[0].status, TrackStatus::kCoasting);
-    EXPECT_NEAR(state.tracks[0].box.centre.x(), 3.0 * i, 1.0);
+    EXPECT_EQ(youngest(state).status, TrackStatus::kCoasting);
+    EXPECT_NEAR(youngest(state).box.centre.x(), 3.0 * i, 1.0);
   }
-  state = step(config, std::move(state), scan_of(60, {}));
+  state = step(config, std::move(state), scan_of(62, {}));
   EXPECT_TRUE(state.tracks.empty());
+}
+
+// Derived: what is in the first image was there before it: no second box is waited for.
+TEST(BoxTracker, BelievesInWhatIsThereFromTheStart) {
+  const BoxTrackerState state = follow({}, {scan_of(1, {box_at(0, 0), box_at(500, 0)})});
+  ASSERT_EQ(state.tracks.size(), 2U);
+  for (const BoxTrack& track : state.tracks) EXPECT_EQ(track.status, TrackStatus::kConfirmed);
+}
+
+// Property: a confirmed track that coasts leaves the box of a neighbour to the neighbour.
+TEST(BoxTracker, ACoastingTrackDoesNotStealFromItsNeighbour) {
+  std::vector<BoxScan> scans;
+  for (int i = 1; i <= 60; ++i) {
+    std::vector<BoundingBox> boxes = {box_at(4.0 * i, 50)};
+    if (i < 20) boxes.push_back(box_at(160, 50));  // then it is hidden for good
+    scans.push_back(scan_of(i, boxes));
+  }
+  BoxTrackerState state;
+  int walker = 0;
+  for (const BoxScan& scan : scans) {
+    state = step({}, std::move(state), scan);
+    for (const BoxTrack& track : state.tracks) {
+      if (track.detection != 0U) continue;
+      if (scan.time == 10) walker = track.id;
+      if (scan.time > 10) {
+        EXPECT_EQ(track.id, walker) << scan.time;
+      }
+    }
+  }
+}
+
+// Property: a second box on an object that has its own starts no track, however long it stays.
+TEST(BoxTracker, ASecondBoxOnATrackedObjectStartsNoTrack) {
+  std::vector<BoxScan> scans = {scan_of(1, {box_at(0, 50)})};
+  for (int i = 2; i <= 30; ++i) scans.push_back(scan_of(i, {box_at(i, 50), box_at(i + 12, 50)}));
+  EXPECT_EQ(follow({}, scans).next_id, 2);
+}
+
+// Property: of two boxes that are about as far from the prediction, the one of more confidence is
+// taken.
+TEST(BoxTracker, PrefersTheBoxOfMoreConfidence) {
+  std::vector<BoxScan> scans;
+  for (int i = 1; i <= 20; ++i) {
+    scans.push_back(scan_of(i, {box_at(0, 50), box_at(900, 50)}));
+    scans.back().detections[1].confidence = i % 2 == 0 ? 0.2 : 1.0;
+  }
+  BoxScan last = scan_of(21, {box_at(9, 50), box_at(-10, 50)});
+  last.detections[0].confidence = 0.1;
+  scans.push_back(last);
+  EXPECT_EQ(follow({}, scans).tracks.front().detection, 1U);
+}
+
+// Property: between a confirmed track and one that is not, a box goes to the confirmed one.
+TEST(BoxTracker, PrefersTheTrackThatIsConfirmed) {
+  std::vector<BoxScan> scans;
+  for (int i = 1; i <= 20; ++i) scans.push_back(scan_of(i, {box_at(0, 50)}));
+  scans.push_back(scan_of(21, {box_at(0, 50), box_at(30, 50)}));
+  scans.push_back(scan_of(22, {box_at(14, 50)}));
+  const BoxTrackerState state = follow({}, scans);
+  ASSERT_EQ(state.tracks.size(), 2U);
+  EXPECT_TRUE(state.tracks.front().detection);
+  EXPECT_FALSE(state.tracks.back().detection);
+}
+
+// Property: a camera that is jerked to and fro by up to three quarters of a box's width swaps no
+// identities.
+TEST(BoxTracker, FollowsTheCamera) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> jerk(-15.0, 15.0);
+  std::vector<BoxScan> scans = street(150, 1.0, Vector2d::Zero());
+  for (BoxScan& scan : scans) {
+    const double x = jerk(random);
+    const double y = jerk(random);
+    for (BoxDetection& detection : scan.detections) detection.box.centre += Vector2d(x, y);
+  }
+  const BoxTrackerState state = follow({}, scans);
+  int confirmed = 0;
+  for (const BoxTrack& track : state.tracks) confirmed += track.status != TrackStatus::kTentative;
+  EXPECT_EQ(confirmed, 6);
+  EXPECT_LE(state.next_id, 12);
 }
 
 // Property: images without a box may be left out: a gap is as many images as it is long.
@@ -122,7 +208,7 @@ TEST(BoxTracker, NoBoxServesTwoTracks) {
     for (const BoxTrack& track : state.tracks) {
       if (track.detection) ++served[*track.detection];
     }
-    EXPECT_TRUE(std::all_of(served.begin(), served.end(), [](int n) { return n == 1; }));
+    EXPECT_TRUE(std::all_of(served.begin(), served.end(), [](int n) { return n <= 1; }));
   }
 }
 
