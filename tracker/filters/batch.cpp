@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "tracker/filters/gains/analysis.hpp"
 
 // One copy of each kernel per instruction set, chosen by the loader. No copy may fuse a
 // multiplication with an addition: -ffp-contract=off keeps the bits alike. 512-bit vectors are
@@ -99,7 +103,94 @@ void sweep(SweepBlock& block, double dt, const double* z, const double* truth, s
   block = b;
 }
 
+/// Filters that go through pieces of one series side by side.
+constexpr std::size_t kPieces = 4;
+
+struct SeriesPieces {
+  std::array<double, kPieces> x{}, v{};
+  std::array<const double*, kPieces> z{};
+  std::array<double*, kPieces> out{};
+};
+
+/// @param is_kept  whether estimates are written, or only the state is brought on
+template <bool is_kept>
+GHTRACK_INLINE void run_pieces(const BatchGains<double> k, SeriesPieces& pieces, std::size_t n) {
+  SeriesPieces p = pieces;
+  for (std::size_t step = 0; step < n; ++step) {
+    for (std::size_t i = 0; i < kPieces; ++i) {
+      const double measured = p.z[i][step];
+      const double predicted = p.x[i] + k.dt * p.v[i];
+      const double residual = measured == measured ? measured - predicted : 0.0;
+      p.x[i] = predicted + k.g * residual;
+      p.v[i] = p.v[i] + k.h_per_dt * residual;
+      if constexpr (is_kept) {
+        // Adding zero turns −0 into +0, as the term of an absent acceleration does.
+        p.out[i][2 * step] = p.x[i] + 0.0;
+        p.out[i][2 * step + 1] = p.v[i] + 0.0;
+      }
+    }
+  }
+  pieces = p;
+}
+
+/// Filters on from a state until the estimates that are there already are met to the last bit.
+void mend(const BatchGains<double>& k, double x, double v, std::span<const double> z, double* out) {
+  for (const double measured : z) {
+    const double predicted = x + k.dt * v;
+    const double residual = measured == measured ? measured - predicted : 0.0;
+    x = predicted + k.g * residual;
+    v = v + k.h_per_dt * residual;
+    if (out[0] == x && out[1] == v) return;
+    *out++ = x + 0.0;
+    *out++ = v + 0.0;
+  }
+}
+
+/// Steps in which a filter forgets its beginning to the last bit of a double; as good as never for
+/// one that is not stable.
+std::size_t memory_of(const Gains& gains) {
+  constexpr double kLongest = 1e9;
+  const double steps = is_stable(gains) ? settling_updates(gains, 1e-18) + 64.0 : kLongest;
+  return static_cast<std::size_t>(std::min(steps, kLongest));
+}
+
 }  // namespace
+
+void filter_series(const Gains& gains, double dt, double position, double velocity,
+                   std::span<const double> z, std::span<double> estimates) {
+  assert(estimates.size() == 2 * z.size());
+  const BatchGains<double> k(gains, dt);
+  const std::size_t memory = memory_of(gains);
+  const std::size_t length = z.size() / kPieces;
+  if (length / 2 < memory) {
+    std::fill(estimates.begin(), estimates.end(), std::numeric_limits<double>::quiet_NaN());
+    return mend(k, position, velocity, z, estimates.data());
+  }
+  SeriesPieces pieces;
+  for (std::size_t i = 1; i < kPieces; ++i) {
+    pieces.z[i] = &z[i * length - memory];
+    pieces.x[i] = std::isfinite(*pieces.z[i]) ? *pieces.z[i] : 0.0;
+  }
+  pieces.z[0] = pieces.z[1];  // the first one knows its beginning
+  run_pieces<false>(k, pieces, memory);
+  pieces.x[0] = position;
+  pieces.v[0] = velocity;
+  for (std::size_t i = 0; i < kPieces; ++i) {
+    pieces.z[i] = &z[i * length];
+    pieces.out[i] = &estimates[2 * i * length];
+  }
+  run_pieces<true>(k, pieces, length);
+
+  for (std::size_t i = 1; i < kPieces; ++i) {
+    const double* const end = &estimates[2 * i * length];
+    mend(k, end[-2], end[-1], z.subspan(i * length, length), &estimates[2 * i * length]);
+  }
+  const std::size_t done = kPieces * length;
+  std::fill(estimates.begin() + static_cast<std::ptrdiff_t>(2 * done), estimates.end(),
+            std::numeric_limits<double>::quiet_NaN());
+  mend(k, estimates[2 * done - 2], estimates[2 * done - 1], z.subspan(done),
+       estimates.data() + 2 * done);
+}
 
 void step_batch(const BatchGains<double>& gains, std::span<double> position,
                 std::span<double> velocity, std::span<const double> z,

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -112,6 +114,36 @@ TEST(Batch, SweepsManyGainsLikeOneAfterTheOther) {
       sum += error * error;
     }
     ASSERT_EQ(bits(errors[j]), bits(sum)) << j;
+  }
+}
+
+// Property: a series in pieces has the bits of one filter that goes through it, whatever it forgets.
+TEST(Batch, FiltersASeriesLikeOneFilterStepByStep) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> normal;
+  std::bernoulli_distribution missing(0.05);
+  const double dt = 0.3;
+  std::vector<Gains> all = {Gains::of_gh(1.0, 1.0), Gains::of_gh(1e-4, 1e-9),
+                            Gains::of_gh(2.5, 1.0), Gains::of_gh(0.0, 0.0)};
+  for (int i = 0; i < 40; ++i) all.push_back(testing::random_stable_gains(1, 0.99, engine));
+  for (const std::size_t n : {0, 1, 5, 999, 20'003}) {
+    for (const Gains& gains : all) {
+      std::vector<double> z(n);
+      for (double& measured : z) {
+        measured = missing(engine) ? std::numeric_limits<double>::quiet_NaN() : normal(engine);
+      }
+      std::vector<double> estimates(2 * n);
+      filter_series(gains, dt, -0.5, 0.25, z, estimates);
+      Kinematics<1> now{Scalar(-0.5), Scalar(0.25), Scalar(0.0)};
+      for (std::size_t i = 0; i < n; ++i) {
+        const Kinematics<1> prior = extrapolated(now, dt);
+        const Scalar residual(std::isnan(z[i]) ? 0.0 : z[i] - prior.position[0]);
+        now = corrected<1>(prior, residual, gains, dt);
+        if (!now.is_finite()) break;  // unstable gains
+        ASSERT_EQ(bits(estimates[2 * i]), bits(now.position[0])) << gains.g << ' ' << n << ' ' << i;
+        ASSERT_EQ(bits(estimates[2 * i + 1]), bits(now.velocity[0])) << gains.g << ' ' << i;
+      }
+    }
   }
 }
 
