@@ -18,6 +18,12 @@ void read_configuration(std::string_view text, const std::string& name,
     found.push_back({.file = name, .message = "the file is empty"});
     throw SceneError(std::move(found));
   }
+  if (root.kind == Node::Kind::kScalar) {
+    found.push_back({name, root.position.line, root.position.column, "",
+                     "must hold keys with values, found a text without any; a CSV file is for "
+                     "`ghtrack track` and `ghtrack filter`"});
+    throw SceneError(std::move(found));
+  }
   std::vector<std::string> origins{name};
   const auto override_names = apply_overrides(root, overrides, found);
   origins.insert(origins.end(), override_names.begin(), override_names.end());

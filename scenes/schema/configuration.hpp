@@ -31,7 +31,7 @@ T read_configuration_text(std::string_view text, const std::string& name,
 template <class T>
 T read_configuration_file(const std::filesystem::path& file,
                           std::span<const std::string> overrides = {}) {
-  return read_configuration_text<T>(read_document_bytes(file), file.string(), overrides);
+  return read_configuration_text<T>(read_document_bytes(file), document_name(file), overrides);
 }
 
 }  // namespace ghtrack::schema

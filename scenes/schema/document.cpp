@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <system_error>
 
@@ -98,7 +101,7 @@ Node parse(const SourceText& source, TreeBuilder& builder) {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
-  throw SceneError({{.file = file.string(), .message = message}});
+  throw SceneError({{.file = document_name(file), .message = message}});
 }
 
 [[noreturn]] void fail_with_errno(const std::filesystem::path& file) {
@@ -107,9 +110,7 @@ Node parse(const SourceText& source, TreeBuilder& builder) {
 
 class Descriptor {
  public:
-  /// Without O_NONBLOCK a pipe without a writer would be waited for.
-  explicit Descriptor(const std::filesystem::path& file)
-      : descriptor_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
   ~Descriptor() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -121,6 +122,41 @@ class Descriptor {
   int descriptor_;
 };
 
+std::string read_all(const std::filesystem::path& file, int descriptor) {
+  std::string bytes(kMaxDocumentBytes + 1, '\0');
+  std::size_t size = 0;
+  while (size < bytes.size()) {
+    const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+    if (count < 0) fail_with_errno(file);  // also when a signal ends the waiting
+    if (count == 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  if (size > kMaxDocumentBytes) fail(file, "is longer than 1 MiB");
+  bytes.resize(size);
+  return bytes;
+}
+
+/// The descriptor of this process that a name stands for.
+std::optional<int> own_stream(std::string_view name) {
+  if (name == "-" || name == "/dev/stdin") return STDIN_FILENO;
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    if (!name.starts_with(folder)) continue;
+    int number = -1;
+    const char* const end = name.data() + name.size();
+    const auto [last, error] = std::from_chars(name.data() + folder.size(), end, number);
+    if (error == std::errc{} && last == end) return number;
+  }
+  return std::nullopt;
+}
+
+/// A stream can be read once only, so what came is kept for whoever asks again.
+const std::string& bytes_of_stream(const std::filesystem::path& file, int descriptor) {
+  static std::map<int, std::string> read_before;
+  const auto known = read_before.find(descriptor);
+  if (known != read_before.end()) return known->second;
+  return read_before.emplace(descriptor, read_all(file, descriptor)).first->second;
+}
+
 }  // namespace
 
 const Node::Member* Node::find(std::string_view key) const {
@@ -129,24 +165,22 @@ const Node::Member* Node::find(std::string_view key) const {
   return member == members.end() ? nullptr : &*member;
 }
 
+std::string document_name(const std::filesystem::path& file) {
+  return file == "-" ? "standard input" : file.string();
+}
+
 std::string read_document_bytes(const std::filesystem::path& file) {
-  const Descriptor descriptor(file);
+  if (const auto stream = own_stream(file.string())) return bytes_of_stream(file, *stream);
+  // Without O_NONBLOCK a pipe without a writer would be waited for.
+  const Descriptor descriptor(
+      ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   struct stat status {};
   if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0) fail_with_errno(file);
   if (S_ISDIR(status.st_mode)) fail(file, "is a folder, not a file");
-  if (!S_ISREG(status.st_mode)) fail(file, "is not a regular file");
-  std::string bytes(kMaxDocumentBytes + 1, '\0');
-  std::size_t size = 0;
-  while (size < bytes.size()) {
-    const ssize_t count = ::read(descriptor.get(), bytes.data() + size, bytes.size() - size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_with_errno(file);
-    if (count == 0) break;
-    size += static_cast<std::size_t>(count);
+  if (!S_ISREG(status.st_mode)) {
+    fail(file, "is not a regular file; what comes through a pipe is read with '-'");
   }
-  if (size > kMaxDocumentBytes) fail(file, "is longer than 1 MiB");
-  bytes.resize(size);
-  return bytes;
+  return read_all(file, descriptor.get());
 }
 
 Node parse_document(std::string_view text, const std::string& name,

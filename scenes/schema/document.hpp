@@ -51,7 +51,11 @@ inline constexpr std::size_t kMaxScalarBytes = std::size_t{1} << 16U;
 inline constexpr std::size_t kMaxNodes = 200'000;
 inline constexpr std::size_t kMaxDepth = 32;
 
-/// Bytes of a regular file. Never blocks on a pipe or a device.
+/// What a file is called in messages: its path, or "standard input" for `-`.
+std::string document_name(const std::filesystem::path& file);
+
+/// Bytes of a regular file, or of standard input (`-`) and what else the process has open under
+/// /dev/fd. Never waits for another pipe or a device.
 /// @throws SceneError if it cannot be read or is longer than kMaxDocumentBytes
 std::string read_document_bytes(const std::filesystem::path& file);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scenes/schema/key_path.hpp"
+#include "scenes/schema/source_text.hpp"
 
 namespace ghtrack::schema {
 namespace {
@@ -96,10 +97,16 @@ void apply(Node& root, std::string_view key, std::string_view text, int origin,
 std::vector<std::string> apply_overrides(Node& root, std::span<const std::string> overrides,
                                          std::vector<Diagnostic>& found) {
   std::vector<std::string> names;
-  for (const std::string& text : overrides) {
+  for (const std::string& given : overrides) {
+    const bool is_option = given.starts_with("--");  // a key with an option of its own
+    const std::string text = is_option ? given.substr(2) : given;
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
-    names.push_back("--set " + key);
+    names.push_back((is_option ? "--" : "--set ") + key);
+    if (const auto flaw = SourceText(key).flaw()) {
+      found.push_back({.file = names.back(), .message = "not a key: " + flaw->message});
+      continue;
+    }
     if (equals == std::string::npos || key.empty()) {
       found.push_back({.file = names.back(), .message = "must have the form KEY=VALUE"});
       continue;

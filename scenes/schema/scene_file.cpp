@@ -5,6 +5,7 @@
 
 #include "scenes/schema/configuration.hpp"
 #include "scenes/schema/descriptions.hpp"
+#include "scenes/schema/document.hpp"
 #include "scenes/schema/json_schema.hpp"
 #include "scenes/schema/reader.hpp"
 #include "scenes/schema/reference.hpp"
@@ -61,6 +62,18 @@ or a group of names that is given replaces its default as a whole.
 ## Keys
 )";
 
+/// The name of a scene that has none of its own: the file's, as far as it is fit for one.
+std::string name_from_file(std::string_view stem) {
+  constexpr std::size_t kLongest = 100;
+  std::string name;
+  while (!stem.empty() && (stem.front() == '.' || stem.front() == '-')) stem.remove_prefix(1);
+  for (const char c : stem.substr(0, kLongest)) {
+    const auto byte = static_cast<unsigned char>(c);
+    name += byte < 0x20 || byte >= 0x7F || c == '/' || c == '\\' ? '_' : c;
+  }
+  return name.empty() ? "scene" : name;
+}
+
 void name_sensors(std::vector<SensorConfig>& sensors) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     if (sensors[i].name.empty()) sensors[i].name = fmt::format("sensor {}", i + 1);
@@ -71,12 +84,13 @@ void name_sensors(std::vector<SensorConfig>& sensors) {
 
 Scene read_scene_text(std::string_view text, const std::string& name,
                       std::span<const std::string> overrides) {
-  auto file = schema::read_configuration_text<SceneFile>(text, name, overrides);
-  std::visit(
-      [&](auto& scene) {
-        if (scene.name.empty()) scene.name = std::filesystem::path(name).stem().string();
-      },
-      file.scene);
+  const std::string default_name = name_from_file(std::filesystem::path(name).stem().string());
+  SceneFile file;
+  std::get<WorldScene>(file.scene).name = default_name;
+  schema::read_configuration(text, name, overrides, schema::type_of<SceneFile>(), &file);
+  if (auto* const series = std::get_if<SeriesScene>(&file.scene)) {
+    if (series->name.empty()) series->name = default_name;
+  }
   if (auto* const world = std::get_if<WorldScene>(&file.scene)) {
     name_targets(world->targets);
     name_sensors(world->sensors);
@@ -85,7 +99,7 @@ Scene read_scene_text(std::string_view text, const std::string& name,
 }
 
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  return read_scene_text(schema::read_document_bytes(file), file.string(), overrides);
+  return read_scene_text(schema::read_document_bytes(file), schema::document_name(file), overrides);
 }
 
 std::string write_scene(const Scene& scene) {

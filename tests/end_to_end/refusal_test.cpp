@@ -35,7 +35,7 @@ TEST_P(Refusal, NamesWhatIsWrongAndLeavesNothingBehind) {
 INSTANTIATE_TEST_SUITE_P(
     OfOptions, Refusal,
     ::testing::Values(
-        Wrong{"ghtrack", 2, "subcommand"}, Wrong{"ghtrack rum x", 2, "did you mean 'run'?"},
+        Wrong{"ghtrack rum x", 2, "did you mean 'run'?"},
         Wrong{"ghtrack run " + kScene + " --sed 3", 2, "did you mean '--seed'?"},
         Wrong{"ghtrack run " + kScene + " --seed many", 2, "--seed"},
         Wrong{"ghtrack run", 2, "SCENE is required"},

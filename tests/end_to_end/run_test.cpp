@@ -81,7 +81,8 @@ Outcome stopped_run(const fs::path& folder, const std::string& signal, const std
   return shell("ghtrack run " + quoted(scene_file("three_regimes.yaml")) + " -o results " +
                    options +
                    " & pid=$!\n"
-                   "while [ ! -s results/truth.csv.partial ] && kill -0 $pid; do sleep 0.1; done\n"
+                   "while [ ! -s results/.ghtrack-*/truth.csv.*.partial ] && kill -0 $pid; "
+                   "do sleep 0.1; done\n"
                    "sleep 1; kill -" +
                    signal + " $pid; wait $pid",
                folder);

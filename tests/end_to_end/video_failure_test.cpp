@@ -92,7 +92,7 @@ TEST(VideoFailure, KeepsWhatWasDoneWhenItIsAskedToStop) {
   const TemporaryFolder folder;
   const Outcome outcome = shell(kVideo +
                                     "-o x.mp4 --slow 100 & job=$!; "
-                                    "while [ ! -s x.partial.mp4 ]; do sleep 0.05; done; sleep 0.5; "
+                                    "while [ ! -s .ghtrack-*/x.partial.mp4 ]; do sleep 0.05; done; sleep 0.5; "
                                     "kill -TERM $job; wait $job",
                                 folder.path());
   EXPECT_EQ(outcome.exit_code, 128 + 15) << outcome.err;
@@ -109,7 +109,7 @@ TEST(VideoFailure, LeavesNoFinalNameWhenItIsKilled) {
   const Outcome outcome =
       shell(kVideo +
                 "-o x.mp4 --slow 100 & job=$!; "
-                "while [ ! -s x.partial.mp4 ]; do sleep 0.05; done; kill -KILL $job; wait $job",
+                "while [ ! -s .ghtrack-*/x.partial.mp4 ]; do sleep 0.05; done; kill -KILL $job; wait $job",
             folder.path());
   EXPECT_EQ(outcome.exit_code, 128 + 9);
   EXPECT_THAT(names_in(folder.path()), Not(::testing::Contains("x.mp4")));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,26 +15,32 @@ struct Manners {
 /// What chooses a scene and changes it before it runs.
 struct SceneOptions {
   std::vector<std::string> files;
-  std::optional<std::uint64_t> seed;
-  std::optional<double> duration;      // [s]
+  std::string seed;                    // as in the scene; empty: what the scene says
+  std::string duration;                // [s]
   std::vector<std::string> overrides;  // KEY=VALUE
 
   /// All changes as KEY=VALUE.
   std::vector<std::string> all_overrides() const;
 };
 
+/// What a video shows, and how large it is.
+struct VideoLook {
+  std::string size;  // WxH; empty: what the scene says
+  std::vector<std::string> show, hide;
+};
+
 struct RunOptions {
   SceneOptions scene;
   std::string output;         // folder; empty: out/<scene name>
   std::optional<bool> video;  // overrides what the scene says
+  VideoLook look;
 };
 
 struct VideoCommandOptions {
   SceneOptions scene;
   std::string output;  // file; empty: out/<scene name>/video.mp4
-  std::string size;    // WxH; empty: what the scene says
+  VideoLook look;
   std::optional<double> fps, slow, from, to;
-  std::vector<std::string> show, hide;
   std::string encoder = "auto";
   std::string poster;  // PNG file; empty: none
   bool compare = false;

@@ -16,6 +16,7 @@
 #include "scenes/schema/descriptions.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/run_replay.hpp"
 #include "tools/cli/scene_source.hpp"
@@ -27,6 +28,7 @@
 #include "tools/ranks/ranks.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/record/result_folder.hpp"
 #include "tools/report/report.hpp"
 
 namespace ghtrack::cli {
@@ -106,13 +108,15 @@ void write_run_table(const Campaign& campaign, const Results& results, const fs:
 void publish(const Campaign& campaign, const Results& results, const fs::path& folder, int jobs,
              const Manners& manners) {
   const Comparison comparison = compare(campaign, results, jobs, stop_if_interrupted);
-  write_run_table(campaign, results, folder / "runs.csv");
-  write_file(folder / "comparison.json", to_json(comparison).dump(2) + "\n");
-  write_file(folder / "comparison.csv", comparison_csv(comparison));
-  write_file(folder / "report.html",
+  ResultFolder files(folder);
+  write_run_table(campaign, results, files.scratch() / "runs.csv");
+  write_file(files.scratch() / "comparison.json", to_json(comparison).dump(2) + "\n");
+  write_file(files.scratch() / "comparison.csv", comparison_csv(comparison));
+  write_file(files.scratch() / "report.html",
              comparison_report(comparison, {.videos = videos_in(folder, campaign)}));
-  fmt::print("{}", to_table(comparison));
-  if (!manners.quiet) fmt::print(stderr, "results in {}\n", folder.string());
+  files.commit();
+  print(to_table(comparison));
+  if (!manners.quiet) tell("results in {}", folder.string());
 }
 
 int merge(const CompareOptions& options, const Manners& manners) {
@@ -132,7 +136,7 @@ int merge(const CompareOptions& options, const Manners& manners) {
                     "shards, or those in .partial files again with --resume",
                     missing, campaign.items(), printable(options.merge)));
   }
-  const fs::path folder = options.output.empty() ? parts : fs::path(options.output);
+  const fs::path folder = options.output.empty() ? parts : folder_named(options.output);
   make_folder(folder);
   publish(campaign, results, folder, threads(options), manners);
   return 0;
@@ -181,7 +185,7 @@ void compute_part(const Campaign& campaign, const std::optional<Shard>& part,
 int compare(const CompareOptions& options, const Manners& manners) {
   if (!options.merge.empty()) return merge(options, manners);
   const Campaign campaign = campaign_from(options);
-  const fs::path folder = options.output.empty() ? "out/comparison" : options.output;
+  const fs::path folder = folder_named(options.output.empty() ? "out/comparison" : options.output);
   if (options.run) {
     replay_run(campaign, *options.run, options.video ? std::optional(folder) : std::nullopt,
                manners);

@@ -12,6 +12,7 @@
 
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tracker/filters/gains/analysis.hpp"
 #include "tracker/filters/gains/rules.hpp"
@@ -194,8 +195,7 @@ int gains(const GainsCommandOptions& options, const Manners&) {
     throw UsageError(fmt::format("gains: --dt is {}; it must be positive", options.dt));
   }
   const Gains result = gains_by_rule(options);
-  fmt::print("{}",
-             options.json ? analysis_of(result, options).dump() + "\n" : as_text(result, options));
+  print(options.json ? analysis_of(result, options).dump() + "\n" : as_text(result, options));
   return 0;
 }
 

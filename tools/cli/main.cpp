@@ -3,36 +3,146 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
-#include <filesystem>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <functional>
-#include <new>
-#include <system_error>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/exit_code.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
+#include "tools/cli/usage.hpp"
 #include "tools/cli/usage_error.hpp"
-#include "tools/record/errors.hpp"
-#include "tools/render/errors.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
-constexpr int kEnvironmentFailed = 1;
-constexpr int kInputWrong = 2;
+/// Help that fits the terminal: meanings are broken into lines beside the names.
+class FittingFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return entry(make_option_name(option, is_positional) + make_option_opts(option),
+                 make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return entry(command->get_display_name(true), command->get_description());
+  }
+
+ private:
+  static constexpr std::size_t kIndent = 2;
+  static constexpr std::size_t kNames = 26;  // columns for names, with the gap after them
+
+  static std::string entry(const std::string& name, const std::string& meaning) {
+    const std::size_t room = terminal_width() - kNames;
+    std::string text = std::string(kIndent, ' ') + name;
+    if (text.size() + 1 > kNames) text += '\n' + std::string(kNames, ' ');
+    text += std::string(kNames - std::min(kNames, text.size()), ' ');
+    std::size_t used = 0;
+    std::istringstream words(meaning);
+    for (std::string word; words >> word;) {
+      if (used > 0 && used + 1 + word.size() > room) {
+        text += '\n' + std::string(kNames, ' ');
+        used = 0;
+      }
+      text += (used > 0 ? " " : "") + word;
+      used += (used > 0 ? 1 : 0) + word.size();
+    }
+    return text + '\n';
+  }
+};
+
+/// What a number on the command line may be.
+struct Range {
+  double least = -std::numeric_limits<double>::max();
+  double most = std::numeric_limits<double>::max();
+  bool above_least = false;  // the least value itself is not allowed
+};
+constexpr Range kAny = {};
+constexpr Range kNotNegative = {.least = 0.0};
+constexpr Range kPositive = {.least = 0.0, .above_least = true};
+constexpr Range kModelNoise = {.least = 0.0, .most = 1e9, .above_least = true};
+constexpr Range kDuration = {.least = 0.0, .most = 1e6, .above_least = true};  // [s], as in a scene
+
+std::string text_of(const Range& range) {
+  if (range.most < std::numeric_limits<double>::max()) {
+    return fmt::format("{}{} to {}", range.above_least ? "above " : "", range.least, range.most);
+  }
+  if (range.least == 0.0) return range.above_least ? "positive numbers" : "0 and more";
+  return "finite numbers";
+}
+
+/// Lets pass what reads as a number in the way of scene files, and lies in a range: no nan, no inf,
+/// no hexadecimal, nothing that would be rounded to something else.
+template <class Number>
+CLI::Validator number_in(Range range) {
+  const auto check = [range](const std::string& text) -> std::string {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const char* const begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
+    const auto [last, error] = std::from_chars(begin, end, number);
+    const auto value = static_cast<double>(number);
+    if (last != end || error == std::errc::invalid_argument || begin == end) {
+      return fmt::format("is '{}', which is no {}number", text,
+                         std::is_integral_v<Number> ? "whole " : "");
+    }
+    const bool inside = error == std::errc{} && std::isfinite(value) && value <= range.most &&
+                        (range.above_least ? value > range.least : value >= range.least);
+    return inside ? "" : fmt::format("is {}; allowed: {}", text, text_of(range));
+  };
+  CLI::Validator validator;
+  validator.operation([check](std::string& text) { return check(text); }).description("");
+  return validator;
+}
+
+/// A number as an option.
+template <class Value>
+CLI::Option* add_number(CLI::App& command, const std::string& name, Value& value, Range range,
+                        const std::string& meaning) {
+  if constexpr (std::is_arithmetic_v<Value>) {
+    return command.add_option(name, value, meaning)
+        ->check(number_in<Value>(range))
+        ->capture_default_str();
+  } else {
+    return command.add_option(name, value, meaning)
+        ->check(number_in<typename Value::value_type>(range));
+  }
+}
+
+/// An option that may be given again and again, with one value each time.
+CLI::Option* add_repeated(CLI::App& command, const std::string& name,
+                          std::vector<std::string>& values, const std::string& meaning) {
+  return command.add_option(name, values, meaning)->allow_extra_args(false)->type_name("TEXT");
+}
 
 void add_scene_options(CLI::App& command, SceneOptions& options, bool several) {
-  auto* files = command.add_option("SCENE", options.files, "scene file (YAML)")->required();
+  auto* files = command.add_option("SCENE", options.files, "scene file (YAML); - reads standard input")
+                    ->required();
   files->expected(several ? -1 : 1);
-  command.add_option("--seed", options.seed, "seed of all random numbers");
-  command.add_option("--duration", options.duration, "length of the run [s]");
-  command
-      .add_option("--set", options.overrides,
-                  "KEY=VALUE: change a key of the scene, such as sensors[0].noise=0.5")
-      ->expected(1)
-      ->allow_extra_args(false);
+  command.add_option("--seed", options.seed,
+                     "seed of all random numbers (default: what the scene says, else 1)");
+  command.add_option("--duration", options.duration,
+                     "length of the run [s] (default: what the scene says, else 20)");
+  add_repeated(command, "--set", options.overrides,
+               "KEY=VALUE: change a key of the scene, such as sensors[0].noise=0.5; may be repeated");
+}
+
+/// What a video shows, and how large it is.
+void add_look(CLI::App& command, VideoLook& look) {
+  command.add_option("--size", look.size,
+                     "WIDTHxHEIGHT [px], both even (default: what the scene says, else 1280x720)");
+  add_repeated(command, "--show", look.show,
+               "layer to add, such as fans or insets; may be repeated, or a list: fans,insets")
+      ->delimiter(',');
+  add_repeated(command, "--hide", look.hide,
+               "layer to leave out, such as legend or grid; may be repeated")
+      ->delimiter(',');
 }
 
 void add_run(CLI::App& app, RunOptions& options) {
@@ -41,6 +151,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   command.add_option("-o,--output", options.output, "folder (default: out/<scene name>)");
   command.add_flag("--video,!--no-video", options.video,
                    "write video.mp4, whatever the scene says");
+  add_look(command, options.look);
   command.footer(
       "Examples:\n"
       "  ghtrack run scenes/three_regimes.yaml\n"
@@ -54,16 +165,19 @@ void add_video(CLI::App& app, VideoCommandOptions& options) {
   command.add_option("-o,--output", options.output,
                      "file ending in mp4, avi, webm, mkv, gif or png, or folder/ for a picture of "
                      "each frame (default: out/<scene name>/video.mp4)");
-  command.add_option("--size", options.size, "WIDTHxHEIGHT [px], both even");
-  command.add_option("--fps", options.fps, "frames per second");
-  command.add_option("--slow", options.slow, "show the scene this many times slower");
-  command.add_option("--from", options.from, "scene time of the first frame [s]");
-  command.add_option("--to", options.to, "scene time of the end [s]");
-  command.add_option("--show", options.show, "layers to add, such as fans or insets");
-  command.add_option("--hide", options.hide, "layers to leave out, such as legend or grid");
+  add_look(command, options.look);
+  add_number(command, "--fps", options.fps, {.least = 1, .most = 240},
+             "frames per second (default: what the scene says, else 30)");
+  add_number(command, "--slow", options.slow, {.least = 0.01, .most = 1000},
+             "show the scene this many times slower (default: what the scene says, else 1)");
+  add_number(command, "--from", options.from, {.least = 0, .most = 1e6},
+             "scene time of the first frame [s] (default: 0)");
+  add_number(command, "--to", options.to, {.least = 0, .most = 1e6},
+             "scene time of the end [s] (default: the scene's end)");
   command.add_option("--encoder", options.encoder,
                      "ffmpeg (a pipe to the program), opencv (no other process; no webm, no gif), "
-                     "or auto: ffmpeg where it is installed, else opencv");
+                     "or auto: ffmpeg where it is installed, else opencv")
+      ->capture_default_str();
   command.add_option("--poster", options.poster, "also write the last picture to this PNG file");
   command.add_flag("--compare", options.compare,
                    "the filters under `compare` in the scene side by side, on the same detections");
@@ -81,24 +195,22 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   add_scene_options(command, options.scene, true);
   command.get_option("SCENE")->required(false);
   command.add_option("-o,--output", options.output, "folder (default: out/comparison)");
-  command.add_option("--runs", options.runs, "runs of each scene (default: what the scene says)")
-      ->check(CLI::Range(1, 1'000'000));
-  command.add_option("--jobs", options.jobs, "threads (default: one per processor)")
-      ->check(CLI::Range(1, 1024));
+  add_number(command, "--runs", options.runs, {.least = 1, .most = 1e6},
+             "runs of each scene (default: what the scene says, else 100)");
+  add_number(command, "--jobs", options.jobs, {.least = 1, .most = 1024},
+             "threads (default: one per processor)");
   command.add_option("--filters", options.filters,
                      "YAML file with `filters: {name: filter, …}`, instead of the scenes' own");
-  command
-      .add_option("--sweep", options.sweeps,
-                  "KEY=VALUE,VALUE,…: compare at each of these values of a key")
-      ->expected(1)
-      ->allow_extra_args(false);
+  add_repeated(command, "--sweep", options.sweeps,
+               "KEY=VALUE,VALUE,…: compare at each of these values of a key; repeated: at every "
+               "combination");
   command.add_option("--shard", options.shard,
                      "I/N: only every N-th run, from number I on (0 to N-1), into a part file");
   command.add_option("--merge", options.merge, "join the part files in this folder");
   command.add_flag("--resume", options.resume, "compute only what the part files lack");
   CLI::Option* const run =
-      command.add_option("--run", options.run, "replay this run alone (from 0) and print its rows")
-          ->check(CLI::Range(0, 999'999));
+      add_number(command, "--run", options.run, {.least = 0, .most = 999'999},
+                 "replay this run alone (from 0) and print its rows");
   command.add_flag("--video", options.video, "with --run: also film it, all filters side by side")
       ->needs(run);
   command.footer(
@@ -116,11 +228,10 @@ void add_tune(CLI::App& app, TuneOptions& options) {
   add_scene_options(command, options.scene, false);
   command.add_option("-o,--output", options.output,
                      "folder for tuning.json, gains.yaml and error surfaces (default: no files)");
-  command.add_option("--runs", options.runs, "runs for tuning, and as many others for judging")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  command.add_option("--jobs", options.jobs, "threads (default: one per processor)")
-      ->check(CLI::Range(1, 1024));
+  add_number(command, "--runs", options.runs, {.least = 1, .most = 1e5},
+             "runs for tuning, and as many others for judging");
+  add_number(command, "--jobs", options.jobs, {.least = 1, .most = 1024},
+             "threads (default: one per processor)");
   command.add_option("--filter", options.filter, "gh or ghk (default: both)");
   command.add_option("--design", options.design,
                      "only gains of a rule: benedict-bordner, critical-damping or tracking-index");
@@ -161,21 +272,23 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
                   "gh, ghk, order0, least-squares, fading-memory, benedict-bordner, kalman-cv, "
                   "kalman-ca or kalman-1d")
       ->capture_default_str();
-  command.add_option("--g", options.g, "position gain");
-  command.add_option("--h", options.h, "velocity gain");
-  command.add_option("--k", options.k, "acceleration gain: a += 2 k r / dt^2");
-  command.add_option("--gamma", options.gamma, "refused: three conventions share this name");
-  command.add_option("--theta", options.theta, "fading-memory: weight of the past, 0 <= theta < 1");
-  command.add_option("--order", options.order, "least-squares, fading-memory: 0, 1 or 2");
-  command.add_option("--q", options.q, "Kalman: process noise");
-  command.add_option("--r", options.r, "Kalman: measurement variance");
-  command.add_option("--p0", options.p0, "kalman-1d: variance of the initial guess");
-  command.add_option("--u", options.u, "kalman-1d: movement per step");
+  add_number(command, "--g", options.g, kAny, "position gain");
+  add_number(command, "--h", options.h, kAny, "velocity gain");
+  add_number(command, "--k", options.k, kAny, "acceleration gain: a += 2 k r / dt^2");
+  add_number(command, "--gamma", options.gamma, kAny, "refused: three conventions share this name");
+  add_number(command, "--theta", options.theta, kAny,
+             "fading-memory: weight of the past, 0 <= theta < 1");
+  add_number(command, "--order", options.order, {.least = 0, .most = 2},
+             "least-squares, fading-memory: 0, 1 or 2 (default: 1)");
+  add_number(command, "--q", options.q, kNotNegative, "Kalman: process noise");
+  add_number(command, "--r", options.r, kPositive, "Kalman: measurement variance");
+  add_number(command, "--p0", options.p0, kNotNegative, "kalman-1d: variance of the initial guess");
+  add_number(command, "--u", options.u, kAny, "kalman-1d: movement per step (default: 0)");
   command.add_option("--x0", options.x0,
                      "initial guess one step before the first row, one per axis");
   command.add_option("--dx0", options.dx0, "initial rate");
   command.add_option("--ddx0", options.ddx0, "initial acceleration");
-  command.add_option("--dt", options.dt, "time between rows")->capture_default_str();
+  add_number(command, "--dt", options.dt, kDuration, "time between rows");
   command.add_option("--t-column", options.t_column, "column that holds the time of each row");
   command.add_flag("--json", options.json, "print only n, rmse, mai and measurement_rmse");
   command.footer(
@@ -193,22 +306,25 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
                   "manual, benedict-bordner, critical-damping, fading-memory, least-squares, "
                   "tracking-index, polge-bhagavan or maximum-acceleration (--accel --sigma --dt)")
       ->required();
-  command.add_option("--g", options.g, "position gain");
-  command.add_option("--h", options.h, "velocity gain");
-  command.add_option("--k", options.k, "acceleration gain: a += 2 k r / dt^2");
-  command.add_option("--gamma", options.gamma, "refused: three conventions share this name");
-  command.add_option("--theta", options.theta, "weight of the past, 0 <= theta < 1");
-  command.add_option("--n", options.n, "least-squares: number of measurements so far");
-  command.add_option("--order", options.order, "0, 1 or 2");
-  command.add_option("--index", options.index, "tracking index: process noise * dt^2 / noise");
-  command.add_option("--process-noise", options.process_noise,
-                     "1-sigma random acceleration [m/s^2]");
-  command.add_option("--noise", options.noise, "1-sigma measurement noise [m]");
-  command.add_option("--dt", options.dt, "time step [s]")->capture_default_str();
-  command.add_option("--sigma", options.sigma, "measurement noise for the variances [m]")
-      ->capture_default_str();
-  command.add_option("--accel", options.accel, "acceleration for the lag, order 1 [m/s^2]");
-  command.add_option("--jerk", options.jerk, "jerk for the lag, order 2 [m/s^3]");
+  add_number(command, "--g", options.g, kAny, "position gain");
+  add_number(command, "--h", options.h, kAny, "velocity gain");
+  add_number(command, "--k", options.k, kAny, "acceleration gain: a += 2 k r / dt^2");
+  add_number(command, "--gamma", options.gamma, kAny, "refused: three conventions share this name");
+  add_number(command, "--theta", options.theta, kAny, "weight of the past, 0 <= theta < 1");
+  add_number(command, "--n", options.n, {.least = 1, .most = 1e6},
+             "least-squares: number of measurements so far");
+  add_number(command, "--order", options.order, {.least = 0, .most = 2}, "0, 1 or 2 (default: 1)");
+  add_number(command, "--index", options.index, {.least = 0, .most = 1e9, .above_least = true},
+             "tracking index: process noise * dt^2 / noise");
+  add_number(command, "--process-noise", options.process_noise, kModelNoise,
+             "1-sigma random acceleration [m/s^2]");
+  add_number(command, "--noise", options.noise, kModelNoise, "1-sigma measurement noise [m]");
+  add_number(command, "--dt", options.dt, kDuration, "time step [s]");
+  add_number(command, "--sigma", options.sigma, kModelNoise,
+             "measurement noise for the variances [m]");
+  add_number(command, "--accel", options.accel, kAny,
+             "acceleration for the lag, order 1 [m/s^2]");
+  add_number(command, "--jerk", options.jerk, kAny, "jerk for the lag, order 2 [m/s^3]");
   command.add_flag("--json", options.json, "print JSON");
   command.footer(
       "Examples:\n"
@@ -252,14 +368,18 @@ void add_score(CLI::App& app, ScoreOptions& options) {
   command
       .add_option("--format", options.format, "csv, mot, or auto: mot if there is no header row")
       ->capture_default_str();
-  command.add_option("--gospa-c", options.gospa_c, "GOSPA, OSPA: cut-off distance [m]");
-  command.add_option("--gospa-p", options.gospa_p, "GOSPA, OSPA: exponent");
-  command.add_option("--gospa-alpha", options.gospa_alpha,
-                     "GOSPA: cost of a missed or false track");
-  command.add_option("--gospa-switching", options.gospa_switching,
-                     "GOSPA: penalty of a change of track [m], adds gospa_switching");
+  add_number(command, "--gospa-c", options.gospa_c, kPositive,
+             "GOSPA, OSPA: cut-off distance [m] (default: 10, or 30 px for boxes)");
+  add_number(command, "--gospa-p", options.gospa_p, {.least = 1},
+             "GOSPA, OSPA: exponent (default: 2)");
+  add_number(command, "--gospa-alpha", options.gospa_alpha,
+             {.least = 0, .most = 2, .above_least = true},
+             "GOSPA: cost of a missed or false track (default: 2)");
+  add_number(command, "--gospa-switching", options.gospa_switching, kPositive,
+             "GOSPA: penalty of a change of track [m], adds gospa_switching");
   command.add_option("--ospa-p", options.ospa_p, "OSPA: exponent of its own, inf is allowed");
-  command.add_option("--match-distance", options.match_distance, "largest distance of a match [m]");
+  add_number(command, "--match-distance", options.match_distance, kPositive,
+             "largest distance of a match [m]");
   command.add_option("--per-step", options.per_step, "also write the metrics of each step, CSV");
   command.add_flag("--json", options.json, "print JSON");
   command.footer(
@@ -267,42 +387,36 @@ void add_score(CLI::App& app, ScoreOptions& options) {
       "  ghtrack score --truth out/three_regimes/truth.csv --tracks out/three_regimes/tracks.csv");
 }
 
-/// All long options of a command, without their dashes.
-std::vector<std::string> options_of(const CLI::App& command) {
-  std::vector<std::string> names;
+/// What a command's words may be.
+CommandWords words_of(const CLI::App& command, const std::string& name) {
+  CommandWords words{.name = name, .options = {}, .letters = {}};
   for (const CLI::Option* option : command.get_options()) {
-    names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+    const auto& names = option->get_lnames();
+    words.options.insert(words.options.end(), names.begin(), names.end());
+    for (const std::string& letter : option->get_snames()) words.letters += letter;
   }
-  return names;
+  return words;
 }
 
-/// CLI11's complaint, with what the user may have meant.
+/// CLI11's complaint as a sentence.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
-  std::string message = printable(error.what());
+  std::string message = error.what();
+  if (const std::size_t colon = message.find(": is "); colon != std::string::npos) {
+    message.erase(colon, 1);  // of an option's value
+  }
+  if (const std::size_t twice = message.find(": At Most 1"); twice != std::string::npos) {
+    message = message.substr(0, twice) + " is given more than once";
+  }
   const auto chosen = app.get_subcommands();
-  std::vector<std::string> known = options_of(app);
-  if (chosen.empty()) {
-    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  } else {
-    const auto own = options_of(*chosen.front());
-    known.insert(known.end(), own.begin(), own.end());
-  }
-  const std::vector<std::string_view> candidates(known.begin(), known.end());
-  for (const std::string& word : app.remaining(true)) {
-    const std::size_t letters = word.find_first_not_of('-');
-    if (letters == std::string::npos) continue;
-    const std::string_view meant = nearest(std::string_view(word).substr(letters), candidates);
-    if (!meant.empty())
-      message += fmt::format("; did you mean '{}{}'?", word.substr(0, letters), meant);
-  }
   const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
   return message + fmt::format("\nTry 'ghtrack{} --help'.", command);
 }
 
-int dispatch(int argc, char** argv) {
+int dispatch(std::vector<std::string> words) {
   CLI::App app{
       "Simulates moving objects, senses them, tracks them with g-h filters and draws it all."};
   app.name("ghtrack");
+  app.formatter(std::make_shared<FittingFormatter>());  // before the commands, which inherit it
   app.set_version_flag("--version", "ghtrack " GHTRACK_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
@@ -356,56 +470,38 @@ int dispatch(int argc, char** argv) {
       {"track", [&] { return track(track_options, manners); }},
       {"score", [&] { return score(score_options, manners); }},
   };
+  std::vector<CommandWords> known = {words_of(app, "")};
+  for (const CLI::App* command : app.get_subcommands({})) {
+    known.push_back(words_of(*command, command->get_name()));
+  }
+  if (words.empty()) words = {"help"};
+  if (words.front() == "help") {  // `help COMMAND` is `COMMAND --help`
+    words.erase(words.begin());
+    words.resize(std::min<std::size_t>(words.size(), 1));
+    words.emplace_back("--help");
+  }
+  refuse_unknown_words(words, known);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    throw UsageError(explain(app, error));
+    if (error.get_exit_code() != 0) throw UsageError(explain(app, error));
+    std::ostringstream text;  // of --help or --version
+    app.exit(error, text, text);
+    print(text.str());
+    return 0;
   }
-  for (const auto& [name, command] : commands) {
-    if (app.got_subcommand(name)) return command();
-  }
-  return kInputWrong;
-}
-
-int report(int exit_code, const char* message) {
-  fmt::print(stderr, "{}\n", message);
-  return exit_code;
-}
-
-/// Exit codes: 0 done, 1 the environment failed, 2 the input is wrong, 128 + N stopped by signal N.
-int guarded_main(int argc, char** argv) try {
-  watch_signals();
-  const int exit_code = dispatch(argc, argv);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    return report(kEnvironmentFailed, "ghtrack: error: standard output cannot be written");
-  }
-  return exit_code;
-} catch (const SceneError& error) {
-  return report(kInputWrong, error.what());
-} catch (const InputError& error) {
-  return report(kInputWrong, error.what());
-} catch (const UsageError& error) {
-  return report(kInputWrong, fmt::format("ghtrack: error: {}", error.what()).c_str());
-} catch (const render::RequestError& error) {
-  return report(kInputWrong, fmt::format("ghtrack: error: {}", error.what()).c_str());
-} catch (const Interrupted& interrupted) {
-  return report(128 + interrupted.signal,
-                fmt::format("ghtrack: interrupted; {}", interrupted.remark).c_str());
-} catch (const std::filesystem::filesystem_error& error) {
-  return report(kEnvironmentFailed, fmt::format("ghtrack: error: {}", error.what()).c_str());
-} catch (const std::system_error& error) {  // only printing throws it
-  return report(
-      kEnvironmentFailed,
-      fmt::format("ghtrack: error: standard output cannot be written: {}", error.code().message())
-          .c_str());
-} catch (const std::bad_alloc&) {
-  return report(kEnvironmentFailed, "ghtrack: error: out of memory");
-} catch (const std::exception& error) {
-  return report(kEnvironmentFailed, fmt::format("ghtrack: error: {}", error.what()).c_str());
+  const auto chosen = std::find_if(commands.begin(), commands.end(), [&](const auto& command) {
+    return app.got_subcommand(command.first);
+  });
+  return chosen->second();
 }
 
 }  // namespace
 }  // namespace ghtrack::cli
 
-int main(int argc, char** argv) { return ghtrack::cli::guarded_main(argc, argv); }
+int main(int argc, char** argv) {
+  ghtrack::cli::open_missing_streams();
+  ghtrack::cli::watch_signals();
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  return ghtrack::cli::exit_code_of([&] { return ghtrack::cli::dispatch(words); });
+}

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "scenes/schema/diagnostic.hpp"
+#include "tools/cli/interruption.hpp"
 #include "tools/record/errors.hpp"
 
 namespace ghtrack::cli {
@@ -113,6 +114,7 @@ bool NumberTable::read_line() {
     buffer_.resize(kept + kBlock);
     ssize_t got = 0;
     do {
+      stop_if_interrupted();
       got = read(descriptor_, buffer_.data() + kept, kBlock);
     } while (got < 0 && errno == EINTR);
     if (got < 0) {

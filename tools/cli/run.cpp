@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,13 +11,16 @@
 #include "scenes/schema/writer.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/run_series.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_frames.hpp"
+#include "tools/cli/video_look.hpp"
 #include "tools/film/scene_drawing.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/pipeline/simulation.hpp"
+#include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
 
 namespace ghtrack::cli {
@@ -32,17 +34,19 @@ std::vector<std::string> sensor_names(const WorldScene& scene) {
   return names;
 }
 
-/// Simulates, senses, tracks and scores; every file appears under its name when it is complete.
+/// Simulates, senses, tracks and scores; all files appear under their names when all are complete.
 /// What an interrupted run has done so far is kept in partial files.
-void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bool> video,
+void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions& options,
                const Manners& manners) {
+  const fs::path& folder = results.scratch();
   World world = make_world(scene);
   RunWriter files(folder, world.objects(), sensor_names(scene));
   RunMetrics metrics(world.objects(), scoring_for(traits_of(scene.sensors)));
   std::optional<VideoFrames> frames;
-  if (video.value_or(scene.video.has_value())) {
-    frames.emplace(scene, world, film::video_options(scene, world, folder / "video.mp4"),
-                   std::vector<film::Contender>{}, manners.quiet);
+  if (options.video.value_or(scene.video.has_value())) {
+    render::VideoOptions video = film::video_options(scene, world, folder / "video.mp4");
+    apply(options.look, video);
+    frames.emplace(scene, world, video, std::vector<film::Contender>{}, manners.quiet);
   }
 
   Listener listener;
@@ -73,8 +77,9 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
     so_far["partial"] = true;
     write_partial_file(folder / "metrics.json", so_far.dump(2) + "\n");
     if (frames) frames->writer().keep_partial();
-    interrupted.remark =
-        fmt::format("{} holds what was done so far, in files named .partial", folder.string());
+    results.keep_partial();
+    interrupted.remark = fmt::format("{} holds what was done so far, in files named .partial",
+                                     results.path().string());
     throw;
   }
 
@@ -84,13 +89,14 @@ void run_world(const WorldScene& scene, const fs::path& folder, std::optional<bo
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", to_json(report).dump(2) + "\n");
   files.commit();
+  results.commit();
   if (world.missed_collisions() > 0 && !manners.quiet) {
-    fmt::print(stderr,
-               "ghtrack: warning: {} collisions were passed over, too fast for steps of 1/{} s; a "
-               "higher physics.rate resolves them\n",
-               world.missed_collisions(), scene.physics.rate);
+    tell(
+        "ghtrack: warning: {} collisions were passed over, too fast for steps of 1/{} s; a "
+        "higher physics.rate resolves them",
+        world.missed_collisions(), scene.physics.rate);
   }
-  fmt::print("{}", to_table(report));
+  print(to_table(report));
 }
 
 const std::string& name_of(const Scene& scene) {
@@ -104,8 +110,8 @@ std::vector<fs::path> folders_of(const RunOptions& options, const std::vector<Sc
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const fs::path by_name = default_folder(name_of(scenes[i]), files[i]);
     folders.push_back(options.output.empty() ? by_name
-                      : scenes.size() == 1   ? fs::path(options.output)
-                                             : options.output / by_name.filename());
+                      : scenes.size() == 1   ? folder_named(options.output)
+                                             : folder_named(options.output) / by_name.filename());
     const auto same = std::find(folders.begin(), folders.end() - 1, folders.back());
     if (same == folders.end() - 1) continue;
     throw UsageError(fmt::format(
@@ -126,14 +132,14 @@ int run(const RunOptions& options, const Manners& manners) {
   }
   const std::vector<fs::path> folders = folders_of(options, scenes);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    make_folder(folders[i]);
+    ResultFolder results(folders[i]);
     if (const auto* world = std::get_if<WorldScene>(&scenes[i])) {
-      run_world(*world, folders[i], options.video, manners);
+      run_world(*world, results, options, manners);
     } else {
-      run_series(std::get<SeriesScene>(scenes[i]), folders[i]);
+      run_series(std::get<SeriesScene>(scenes[i]), results);
     }
     if (!manners.quiet) {
-      fmt::print(stderr, "{}: results in {}\n", name_of(scenes[i]), folders[i].string());
+      tell("{}: results in {}", name_of(scenes[i]), folders[i].string());
     }
   }
   return 0;

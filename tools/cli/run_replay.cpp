@@ -9,13 +9,16 @@
 
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_frames.hpp"
+#include "tools/cli/video_place.hpp"
 #include "tools/experiment/run_table.hpp"
 #include "tools/experiment/trial.hpp"
 #include "tools/film/contender.hpp"
 #include "tools/film/scene_drawing.hpp"
+#include "tools/record/result_folder.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -38,12 +41,14 @@ void film(const CampaignCell& cell, int run, const fs::path& path, const Manners
                                  kMostPanels, printable(cell.file), filters));
   }
   World world = world_of_run(cell.scene, run);
-  VideoFrames frames(scene, world, film::video_options(scene, world, path),
+  VideoPlace place(path);
+  VideoFrames frames(scene, world, film::video_options(scene, world, place.scratch_path()),
                      filters > 1 ? film::contenders_of(scene) : std::vector<film::Contender>{},
                      manners.quiet);
-  film_run(scene, world, frames, path);
+  film_run(scene, world, frames, place);
   frames.writer().finish();
-  if (!manners.quiet) fmt::print(stderr, "{}\n", path.string());
+  place.commit();
+  if (!manners.quiet) tell("{}", path.string());
 }
 
 }  // namespace
@@ -55,7 +60,7 @@ void replay_run(const Campaign& campaign, int run, const std::optional<fs::path>
     const Trial trial(cell.scene, stop_if_interrupted);
     rows += run_table_rows(cell, trial, run, trial.scores(run));
   }
-  fmt::print("{}", rows);
+  print(rows);
   if (!films) return;
   make_folder(*films);
   for (std::size_t i = 0; i < campaign.cells.size(); ++i) {

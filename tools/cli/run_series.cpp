@@ -9,6 +9,7 @@
 
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/writer.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/film/series_plot.hpp"
 #include "tools/pipeline/series.hpp"
 #include "tools/record/atomic_file.hpp"
@@ -76,13 +77,15 @@ std::string as_table(const SeriesResult& result) {
 
 }  // namespace
 
-void run_series(const SeriesScene& scene, const fs::path& folder) {
+void run_series(const SeriesScene& scene, ResultFolder& results) {
+  const fs::path& folder = results.scratch();
   const SeriesResult result = ghtrack::run(scene);
   render::write_plot(folder / "plot.png", film::plot_of(scene, result));
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", as_json(scene, result).dump(2) + "\n");
   write_file(folder / "series.csv", as_csv(result));
-  fmt::print("{}", as_table(result));
+  results.commit();
+  print(as_table(result));
 }
 
 }  // namespace ghtrack::cli

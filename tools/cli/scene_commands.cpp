@@ -7,6 +7,7 @@
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/writer.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/scene_source.hpp"
 
 namespace ghtrack::cli {
@@ -16,7 +17,7 @@ int check(const SceneOptions& options, const Manners& manners) {
   for (const std::string& file : options.files) {
     try {
       load_scene(file, options);
-      if (!manners.quiet) fmt::print("{}: ok\n", printable(file));
+      if (!manners.quiet) print(printable(file) + ": ok\n");
     } catch (const SceneError& error) {
       found.insert(found.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
@@ -26,12 +27,12 @@ int check(const SceneOptions& options, const Manners& manners) {
 }
 
 int schema() {
-  fmt::print("{}", scene_json_schema());
+  print(scene_json_schema());
   return 0;
 }
 
 int reference() {
-  fmt::print("{}", scene_reference());
+  print(scene_reference());
   return 0;
 }
 

@@ -1,13 +1,9 @@
 #include "tools/cli/scene_source.hpp"
 
-#include <fmt/format.h>
-
 #include <cctype>
-#include <system_error>
 
 #include "scenes/schema/reader.hpp"
-#include "tools/record/csv_writer.hpp"
-#include "tools/record/errors.hpp"
+#include "tools/cli/usage_error.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -34,12 +30,8 @@ std::string plain_name(const std::string& name) {
 
 std::vector<std::string> SceneOptions::all_overrides() const {
   std::vector<std::string> all = overrides;
-  if (seed) all.push_back(fmt::format("seed={}", *seed));
-  if (duration) {
-    std::string text = "duration=";
-    append_number(text, *duration);
-    all.push_back(text);
-  }
+  if (!seed.empty()) all.push_back("--seed=" + seed);
+  if (!duration.empty()) all.push_back("--duration=" + duration);
   return all;
 }
 
@@ -53,12 +45,11 @@ std::filesystem::path default_folder(const std::string& scene_name, const std::s
   return std::filesystem::path("out") / (name.empty() ? "scene" : name);
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!error && std::filesystem::is_directory(folder, error)) return;
-  const std::string reason = error ? error.message() : "a file of that name is in the way";
-  throw WriteError(fmt::format("{}: the folder cannot be made: {}", folder.string(), reason));
+std::filesystem::path folder_named(const std::string& output) {
+  if (output == "-") {
+    throw UsageError("-o '-': results are several files, which need a folder");
+  }
+  return output;
 }
 
 }  // namespace ghtrack::cli

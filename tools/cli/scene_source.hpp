@@ -14,8 +14,8 @@ Scene load_scene(const std::string& file, const SceneOptions& options);
 /// The folder for the results of a scene: out/<its name in plain letters>.
 std::filesystem::path default_folder(const std::string& scene_name, const std::string& file);
 
-/// Makes a folder and its parents.
-/// @throws WriteError naming the folder and the reason
-void make_folder(const std::filesystem::path& folder);
+/// The folder that was given for results.
+/// @throws UsageError for `-`: results are files
+std::filesystem::path folder_named(const std::string& output);
 
 }  // namespace ghtrack::cli

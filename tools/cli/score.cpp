@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/cli/commands.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/metrics/score.hpp"
 #include "tools/record/atomic_file.hpp"
@@ -65,7 +66,7 @@ ScoreResult score_files(const ScoreOptions& options) {
 int score(const ScoreOptions& options, const Manners&) {
   const ScoreResult result = score_files(options);
   if (!options.per_step.empty()) write_file(options.per_step, per_step_csv(result));
-  fmt::print("{}", options.json ? to_json(result).dump() + "\n" : to_text(result));
+  print(options.json ? to_json(result).dump() + "\n" : to_text(result));
   return 0;
 }
 

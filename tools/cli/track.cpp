@@ -16,6 +16,7 @@
 #include "scenes/schema/descriptions.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/pipeline/box_tracking.hpp"
 #include "tools/pipeline/offline.hpp"
@@ -79,13 +80,13 @@ class StageTimes {
 /// A folder as the output gets a file of that name.
 fs::path output_file(const std::string& output, const std::string& name) {
   std::error_code ignored;
-  if (output.empty()) return "/dev/stdout";
+  if (output.empty()) return "-";
   return fs::is_directory(output, ignored) ? fs::path(output) / name : fs::path(output);
 }
 
 void report_refusals(const auto& state, const Manners& manners) {
   if (manners.quiet || state.scans_refused + state.detections_refused == 0) return;
-  fmt::print(stderr, "ghtrack: warning: refused {} scans out of order and {} unusable detections\n",
+  tell("ghtrack: warning: refused {} scans out of order and {} unusable detections",
              state.scans_refused, state.detections_refused);
 }
 
@@ -206,7 +207,7 @@ int track(const TrackOptions& options, const Manners& manners) {
   } else {
     track_csv(options, config, times, manners);
   }
-  if (options.timings) fmt::print(stderr, "ghtrack: {}\n", times.text());
+  if (options.timings) tell("ghtrack: {}", times.text());
   return 0;
 }
 

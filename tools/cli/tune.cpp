@@ -13,12 +13,14 @@
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/experiment/gain_search.hpp"
 #include "tools/experiment/tuning.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
+#include "tools/record/result_folder.hpp"
 #include "tools/report/report.hpp"
 
 namespace ghtrack::cli {
@@ -67,6 +69,7 @@ std::string surface_csv(const GainSurface& surface) {
 
 int tune(const TuneOptions& options, const Manners& manners) {
   const std::string& file = options.scene.files.front();
+  const fs::path folder = folder_named(options.output);
   const TuningOptions wanted = tuning_options(options);
   const Scene any_scene = load_scene(file, options.scene);
   const auto* scene = std::get_if<WorldScene>(&any_scene);
@@ -75,19 +78,19 @@ int tune(const TuneOptions& options, const Manners& manners) {
         fmt::format("tune: {} is a series; gains are tuned in a world", printable(file)));
   }
   const Tuning tuning = ghtrack::tune(*scene, wanted, stop_if_interrupted);
-  if (!options.output.empty()) {
-    const fs::path folder = options.output;
-    make_folder(folder);
-    write_file(folder / "tuning.json", to_json(tuning).dump(2) + "\n");
-    write_file(folder / "gains.yaml", scene_fragment(tuning));
-    write_file(folder / "report.html", tuning_report(tuning));
+  if (!folder.empty()) {
+    ResultFolder results(folder);
+    write_file(results.scratch() / "tuning.json", to_json(tuning).dump(2) + "\n");
+    write_file(results.scratch() / "gains.yaml", scene_fragment(tuning));
+    write_file(results.scratch() / "report.html", tuning_report(tuning));
     for (const GainSurface& surface : tuning.surfaces) {
-      write_file(folder / ("surface-" + surface.regime + ".csv"), surface_csv(surface));
+      write_file(results.scratch() / ("surface-" + surface.regime + ".csv"), surface_csv(surface));
     }
-    if (!manners.quiet) fmt::print(stderr, "results in {}\n", folder.string());
+    results.commit();
+    if (!manners.quiet) tell("results in {}", options.output);
   }
-  fmt::print("{}\n# the best of them, to be pasted into the scene\n{}", to_table(tuning),
-             scene_fragment(tuning));
+  print(to_table(tuning) + "\n# the best of them, to be pasted into the scene\n" +
+        scene_fragment(tuning));
   return 0;
 }
 

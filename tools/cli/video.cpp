@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -13,38 +11,21 @@
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_frames.hpp"
+#include "tools/cli/video_look.hpp"
+#include "tools/cli/video_place.hpp"
 #include "tools/film/scene_drawing.hpp"
 #include "tools/pipeline/simulation.hpp"
+#include "tools/record/result_folder.hpp"
 #include "tools/render/output_path.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::pair<int, int> parse_size(const std::string& text) {
-  int width = 0;
-  int height = 0;
-  const char* const end = text.data() + text.size();
-  const auto [x, width_error] = std::from_chars(text.data(), end, width);
-  if (width_error == std::errc{} && x != end && *x == 'x') {
-    const auto [last, height_error] = std::from_chars(x + 1, end, height);
-    if (height_error == std::errc{} && last == end) return {width, height};
-  }
-  throw UsageError(fmt::format("video: --size is '{}'; wanted is WIDTHxHEIGHT, such as 1920x1080",
-                               printable(text)));
-}
-
-render::Layer parse_layer(const std::string& name) {
-  if (const auto layer = render::layer_named(name)) return *layer;
-  std::vector<std::string_view> names;
-  for (const auto& [known, layer] : enum_names(render::Layer{})) names.push_back(known);
-  throw UsageError(
-      fmt::format("video: unknown layer '{}'{}", printable(name), hint(name, "layers", names)));
-}
 
 render::Encoder parse_encoder(const std::string& name) {
   if (name == "auto") return render::Encoder::kAutomatic;
@@ -55,13 +36,11 @@ render::Encoder parse_encoder(const std::string& name) {
 }
 
 render::VideoOptions changed_by(const VideoCommandOptions& options, render::VideoOptions video) {
-  if (!options.size.empty()) std::tie(video.width, video.height) = parse_size(options.size);
+  apply(options.look, video);
   video.fps = options.fps.value_or(video.fps);
   video.slow = options.slow.value_or(video.slow);
   video.from = options.from.value_or(video.from);
   if (options.to) video.to = options.to;
-  for (const std::string& layer : options.show) video.layers.show(parse_layer(layer));
-  for (const std::string& layer : options.hide) video.layers.hide(parse_layer(layer));
   video.encoder = parse_encoder(options.encoder);
   return video;
 }
@@ -99,12 +78,16 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
   std::vector<film::Contender> contenders;
   if (options.compare) contenders = contenders_of(*scene);
   World world = make_world(*scene);
-  VideoFrames frames(*scene, world, changed_by(options, film::video_options(*scene, world, path)),
-                     std::move(contenders), manners.quiet);
-  film_run(*scene, world, frames, path);
+  render::VideoOptions wanted = changed_by(options, film::video_options(*scene, world, path));
+  render::check_request(wanted);
+  VideoPlace place(path);
+  wanted.path = place.scratch_path();
+  VideoFrames frames(*scene, world, wanted, std::move(contenders), manners.quiet);
+  film_run(*scene, world, frames, place);
   if (!options.poster.empty()) frames.writer().write_poster(options.poster);
   frames.writer().finish();
-  if (!manners.quiet) fmt::print(stderr, "{}: {}\n", scene->name, path.string());
+  place.commit();
+  if (!manners.quiet) tell("{}: {}", scene->name, path.string());
   return 0;
 }
 

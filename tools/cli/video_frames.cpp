@@ -1,7 +1,5 @@
 #include "tools/cli/video_frames.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "tools/cli/interruption.hpp"
@@ -32,8 +30,7 @@ void VideoFrames::add_frame(const TruthSnapshot& truth) {
   progress_.advance();
 }
 
-void film_run(const WorldScene& scene, World& world, VideoFrames& frames,
-              const std::filesystem::path& path) {
+void film_run(const WorldScene& scene, World& world, VideoFrames& frames, VideoPlace& place) {
   Listener listener;
   listener.on_scan = [&](const StepRecord& record) { frames.add_scan(record); };
   listener.on_late_scan = [&](const Observation& late) { frames.add_late_scan(late); };
@@ -46,8 +43,8 @@ void film_run(const WorldScene& scene, World& world, VideoFrames& frames,
     ghtrack::run(scene, world, listener);
   } catch (Interrupted& interrupted) {
     frames.writer().keep_partial();
-    interrupted.remark = fmt::format("{} holds what was done so far, in a file named .partial",
-                                     path.parent_path().string());
+    place.keep_partial();
+    interrupted.remark = "what was done so far is in a file named .partial";
     throw;
   }
 }

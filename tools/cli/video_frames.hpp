@@ -1,11 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "scenes/schema/scene.hpp"
 #include "sim/world.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/video_place.hpp"
 #include "tools/film/contender.hpp"
 #include "tools/film/frame_maker.hpp"
 #include "tools/record/step_record.hpp"
@@ -38,7 +38,6 @@ class VideoFrames {
 
 /// Runs a scene from its start to its end into a video, which finish() has still to complete. What
 /// an interrupted run has drawn is kept in a file named .partial.
-void film_run(const WorldScene& scene, World& world, VideoFrames& frames,
-              const std::filesystem::path& path);
+void film_run(const WorldScene& scene, World& world, VideoFrames& frames, VideoPlace& place);
 
 }  // namespace ghtrack::cli

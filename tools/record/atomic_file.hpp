@@ -1,16 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "tools/record/scratch.hpp"
+
 namespace ghtrack {
 
-/// A file that appears under its name only when it is complete: it is written beside it as
-/// `<name>.partial`, flushed to the disk and renamed by commit(). Without commit() or
-/// keep_partial() nothing is left. A target that exists and is no regular file, such as a pipe or
-/// /dev/stdout, is written directly. Every failure throws WriteError, and none is lost in a
-/// destructor.
+/// A file that appears under its name only when it is complete: it is written beside it under a
+/// name of its own, flushed to the disk and renamed by commit(). Without commit() or keep_partial()
+/// nothing is left. Every failure throws WriteError, and none is lost in a destructor.
+///
+/// A symbolic link stays, and the file that it leads to is replaced. A file that is there keeps its
+/// permissions. What is no regular file, such as a pipe or a device, is written directly, and so is
+/// a descriptor of this process: `-`, /dev/stdout, /dev/fd/N.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -32,11 +37,15 @@ class AtomicFile {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  void open_scratch();
   void flush();
+  void close();
+  void rename_to(const std::filesystem::path& name);
   [[noreturn]] void fail(int error) const;
 
-  std::filesystem::path path_;
-  std::filesystem::path written_path_;  // where the bytes go until commit()
+  std::filesystem::path path_;      // as given
+  std::filesystem::path replaced_;  // the file that gets replaced: links followed
+  std::optional<Scratch> scratch_;  // where the bytes go until commit(); nothing: straight to path_
   std::string buffer_;
   int descriptor_ = -1;
 };

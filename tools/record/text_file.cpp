@@ -8,23 +8,24 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <system_error>
 #include <utility>
 
 #include "tools/record/errors.hpp"
+#include "tools/record/output_name.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr std::int64_t kLongestFile = std::int64_t{256} << 20;
+constexpr std::size_t kLongestFile = std::size_t{256} << 20;
 constexpr std::size_t kLongestLine = std::size_t{64} << 10;
 constexpr std::int64_t kLargestWhole = std::int64_t{1} << 53;
 
 /// Closes a file descriptor at the end of its scope.
 class Descriptor {
  public:
-  explicit Descriptor(const std::filesystem::path& path)
-      : value_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  explicit Descriptor(int value) : value_(value) {}
   ~Descriptor() {
     if (value_ >= 0) ::close(value_);
   }
@@ -38,7 +39,47 @@ class Descriptor {
 };
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError(path.string() + ": error: " + reason);
+  throw InputError(input_name(path) + ": error: " + reason);
+}
+
+[[noreturn]] void refuse_unreadable(const std::filesystem::path& path) {
+  refuse(path, "cannot read: " + std::generic_category().message(errno));
+}
+
+/// Appends what an open file holds, up to its end.
+void read_all(const std::filesystem::path& path, int descriptor, std::string& text) {
+  constexpr std::size_t kBlock = std::size_t{1} << 18;
+  for (std::size_t filled = text.size();;) {
+    text.resize(filled + kBlock);
+    const ssize_t got = ::read(descriptor, text.data() + filled, kBlock);
+    if (got < 0) refuse_unreadable(path);  // also when a signal ends the waiting
+    filled += static_cast<std::size_t>(got);
+    text.resize(filled);
+    if (got == 0) return;
+    if (filled > kLongestFile) refuse(path, "longer than 256 MiB");
+  }
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  struct stat about {};
+  if (file.value() < 0 || ::fstat(file.value(), &about) != 0) refuse_unreadable(path);
+  if (!S_ISREG(about.st_mode)) {
+    refuse(path, "this is no regular file; what comes through a pipe is read with '-'");
+  }
+  if (about.st_size > static_cast<off_t>(kLongestFile)) refuse(path, "longer than 256 MiB");
+  std::string text;
+  text.reserve(static_cast<std::size_t>(about.st_size) + 1);
+  read_all(path, file.value(), text);
+  return text;
+}
+
+/// A stream can be read once only, so what came is kept for whoever asks again.
+const std::string& read_stream(const std::filesystem::path& path, int descriptor) {
+  static std::map<int, std::string> read_before;
+  const auto [text, is_new] = read_before.try_emplace(descriptor);
+  if (is_new) read_all(path, descriptor, text->second);
+  return text->second;
 }
 
 /// Length of the character at the start of the text if it is one that a text may hold: UTF-8
@@ -66,7 +107,7 @@ std::size_t text_character(const unsigned char* at, std::size_t left) {
                             std::size_t offset, const std::string& reason) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(offset);
   const auto line = 1 + std::count(text.begin(), end, '\n');
-  throw InputError(path.string() + ":" + std::to_string(line) + ": error: " + reason);
+  throw InputError(input_name(path) + ":" + std::to_string(line) + ": error: " + reason);
 }
 
 void check_text(const std::filesystem::path& path, std::string_view text) {
@@ -126,25 +167,13 @@ void Findings::throw_if_any() const {
   throw InputError(text);
 }
 
+std::string input_name(const std::filesystem::path& path) {
+  return path == "-" ? "standard input" : path.string();
+}
+
 std::string read_text_file(const std::filesystem::path& path) {
-  const Descriptor file(path);
-  struct stat about {};
-  if (file.value() < 0 || ::fstat(file.value(), &about) != 0) {
-    refuse(path, "cannot read: " + std::generic_category().message(errno));
-  }
-  if (!S_ISREG(about.st_mode)) refuse(path, "this is no regular file");
-  if (about.st_size > kLongestFile) refuse(path, "longer than 256 MiB");
-  std::string text(static_cast<std::size_t>(about.st_size), '\0');
-  std::size_t filled = 0;
-  while (filled < text.size()) {
-    const ssize_t got = ::read(file.value(), text.data() + filled, text.size() - filled);
-    if (got < 0 && errno != EINTR) {
-      refuse(path, "cannot read: " + std::generic_category().message(errno));
-    }
-    if (got == 0) break;
-    if (got > 0) filled += static_cast<std::size_t>(got);
-  }
-  text.resize(filled);
+  const std::optional<int> own = own_descriptor(path, STDIN_FILENO);
+  std::string text = own ? read_stream(path, *own) : read_file(path);
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   check_text(path, text);
   return text;

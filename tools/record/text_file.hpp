@@ -30,8 +30,12 @@ class Findings {
   std::vector<std::string> lines_;
 };
 
+/// What a file is called in messages: its path, or "standard input" for `-`.
+std::string input_name(const std::filesystem::path& path);
+
 /// Reads a regular file as text: UTF-8 without control characters other than tab and line ends, a
-/// byte order mark removed. Pipes and devices are refused without waiting for them.
+/// byte order mark removed. Pipes and devices are refused without waiting for them, except those
+/// that this process has open: `-` is standard input, and /dev/fd/N what a shell puts there.
 /// @throws InputError if it cannot be read, is longer than 256 MiB, has a line of more than 64 KiB
 /// or is no text
 std::string read_text_file(const std::filesystem::path& path);

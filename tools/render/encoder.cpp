@@ -4,17 +4,19 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "tools/record/atomic_file.hpp"
+#include "tools/record/errors.hpp"
 #include "tools/render/output_path.hpp"
 
 namespace ghtrack::render {
@@ -85,10 +87,8 @@ class PngEncoder : public ImageEncoder {
 class PngSequence : public ImageEncoder {
  public:
   explicit PngSequence(fs::path folder) : folder_(std::move(folder)) {
-    std::error_code error;
-    fs::remove_all(folder_, error);  // what an interrupted run left
-    if (!fs::create_directory(folder_, error))
-      throw OutputError("cannot write '" + folder_.string() + "': " + error.message());
+    if (::mkdir(folder_.c_str(), 0777) != 0)
+      throw OutputError("cannot write '" + folder_.string() + "': " + std::strerror(errno));
   }
   void add(const cv::Mat& image) override { write_png(folder_ / picture_name(count_++), image); }
   void close() override {}
@@ -128,18 +128,14 @@ void write_png(const fs::path& path, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
   if (!cv::imencode(".png", image, bytes))
     throw OutputError("cannot write '" + path.string() + "': OpenCV has no encoder for PNG");
-  const fs::path partial = partial_path(path);
-  errno = 0;
-  std::ofstream file(partial, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (file) return commit_file(partial, path);
-  const int error = errno;
-  std::error_code ignored;
-  fs::remove(partial, ignored);
-  throw OutputError("cannot write '" + path.string() +
-                    "': " + (error == 0 ? "the file was cut" : std::strerror(error)));
+  constexpr std::ptrdiff_t kEnd = 12;  // bytes of the last chunk, IEND
+  const std::string_view mark = picture_mark();
+  bytes.insert(bytes.end() - kEnd, mark.begin(), mark.end());
+  try {
+    write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  } catch (const WriteError& error) {
+    throw OutputError(error.what());
+  }
 }
 
 void verify_video(const fs::path& file, std::size_t frames) {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <system_error>
 
@@ -67,13 +68,6 @@ void check_folder(const std::string& given, const fs::path& folder) {
     throw OutputError("cannot write " + quoted(given) + ": " + std::string(problem));
 }
 
-/// `a/run/` and `a/run//` → `a/run`.
-fs::path without_slash(const fs::path& path) {
-  std::string text = path.string();
-  while (text.size() > 1 && text.back() == '/') text.pop_back();
-  return text;
-}
-
 bool is_picture_name(const std::string& name) {
   constexpr std::string_view kBefore = "frame_";
   constexpr std::string_view kAfter = ".png";
@@ -84,16 +78,44 @@ bool is_picture_name(const std::string& name) {
          std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// Whether a file is a picture that this program made: a PNG file with its mark before the end.
+bool is_own_picture(const fs::path& file) {
+  constexpr std::size_t kEnd = 12;  // bytes of the last chunk, IEND
+  if (!is_picture_name(file.filename().string())) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::string mark(picture_mark().size(), '\0');
+  stream.seekg(-static_cast<std::streamoff>(mark.size() + kEnd), std::ios::end);
+  stream.read(mark.data(), static_cast<std::streamsize>(mark.size()));
+  return stream && mark == picture_mark();
+}
+
 }  // namespace
+
+fs::path without_slash(const fs::path& path) {
+  std::string text = path.string();
+  while (text.size() > 1 && text.back() == '/') text.pop_back();
+  return text;
+}
+
+std::string_view picture_mark() {
+  // length, kind and text of the chunk, and its check sum
+  static constexpr char kMark[] = "\0\0\0\x10tEXtSoftware\0ghtrack\x0fyI\xf9";
+  return {kMark, sizeof kMark - 1};
+}
 
 void check_output_path(const fs::path& path, std::initializer_list<std::string_view> extensions) {
   const std::string given = path.string();
   check_name(given, path.filename().string());
   std::error_code error;
-  if (fs::is_directory(path, error))
+  const auto status = fs::status(path, error);
+  if (fs::is_directory(status))
     throw OutputError("cannot write " + quoted(given) +
                       ": it is a folder; name a file in it, or end the name with a slash for a "
                       "folder of pictures");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw OutputError("cannot write " + quoted(given) +
+                      ": it is a pipe or a device; a picture or video is read back before it gets "
+                      "its name, which needs a file");
   const std::string extension = path.extension().empty() ? "" : path.extension().string().substr(1);
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     throw RequestError("cannot write " + quoted(given) + ": its extension is " +
@@ -114,10 +136,10 @@ void check_picture_folder(const fs::path& path) {
   if (!fs::is_directory(folder, error))
     throw OutputError("cannot write " + quoted(given) + ": it is a file, not a folder");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (!is_picture_name(entry.path().filename().string()))
+    if (!entry.is_regular_file(error) || !is_own_picture(entry.path()))
       throw RequestError("cannot write " + quoted(given) + ": the folder holds " +
                          quoted(entry.path().filename().string()) +
-                         ", which is no picture of a video; name a new folder");
+                         ", which is no picture that ghtrack made; name a new folder");
 }
 
 std::string picture_name(std::size_t index) {
@@ -135,7 +157,6 @@ fs::path partial_path(const fs::path& path) {
 void commit_file(const fs::path& partial, const fs::path& path) {
   std::error_code error;
   const fs::path name = without_slash(path);
-  if (is_picture_folder(path)) fs::remove_all(name, error);
   fs::rename(partial, name, error);
   if (error) throw OutputError("cannot write " + quoted(path.string()) + ": " + error.message());
 }

@@ -18,9 +18,16 @@ void check_output_path(const std::filesystem::path& path,
 bool is_picture_folder(const std::filesystem::path& path);
 
 /// Checks a folder that is to be filled with pictures: as check_output_path(), and if it is there
-/// already it holds nothing but such pictures, which will be replaced.
+/// already it holds nothing but pictures that this program made.
 /// @throws RequestError, OutputError
 void check_picture_folder(const std::filesystem::path& path);
+
+/// The part of a PNG file, before its end, that says `Software: ghtrack`: by it such a picture is
+/// known again.
+std::string_view picture_mark();
+
+/// `a/run/` and `a/run//` → `a/run`.
+std::filesystem::path without_slash(const std::filesystem::path& path);
 
 /// Name of a picture in such a folder: frame_000012.png.
 std::string picture_name(std::size_t index);
@@ -29,7 +36,8 @@ std::string picture_name(std::size_t index);
 /// `run/` → `run.partial`, absolute.
 std::filesystem::path partial_path(const std::filesystem::path& path);
 
-/// Gives a complete file or folder its name; an older one of that name is replaced.
+/// Gives a complete file or folder its name. An older file of that name is replaced; a folder that
+/// is not empty never is.
 /// @throws OutputError
 void commit_file(const std::filesystem::path& partial, const std::filesystem::path& path);
 

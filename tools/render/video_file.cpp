@@ -18,7 +18,13 @@ namespace {
 /// Encodes one image while the next is drawn. At most one waits: memory stays flat.
 class EncodingThread {
  public:
-  explicit EncodingThread(ImageEncoder& encoder) : encoder_(encoder), thread_([this] { run(); }) {}
+  explicit EncodingThread(ImageEncoder& encoder) : encoder_(encoder) {
+    try {
+      thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error&) {
+      // The system gives no thread: encode in between.
+    }
+  }
 
   ~EncodingThread() { stop(); }
   EncodingThread(const EncodingThread&) = delete;
@@ -26,6 +32,7 @@ class EncodingThread {
 
   /// Takes the image and gives back another one to draw on.
   void add(cv::Mat& image) {
+    if (!thread_.joinable()) return encoder_.add(image);
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !is_waiting_ || failure_; });
     if (failure_) std::rethrow_exception(failure_);
