@@ -289,18 +289,18 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"compare scene.yaml --filters none.yaml", "none.yaml: error: cannot be read"},
         Wrong{"compare scene.yaml --filters empty.yaml", "empty.yaml: error: names no filters"},
         Wrong{"compare scene.yaml --filters typo.yaml", "filters.a.gh.hh"},
-        Wrong{"compare scene.yaml --jobs 0", "--jobs: Value 0 not in range 1 to 1024"},
-        Wrong{"compare scene.yaml --jobs many", "--jobs: Value many not in range 1 to 1024"},
-        Wrong{"compare scene.yaml --runs 0", "--runs: Value 0 not in range 1 to 1000000"},
-        Wrong{"compare scene.yaml --runs 1.5", "--runs: Value 1.5 not in range"},
-        Wrong{"compare scene.yaml --run -1", "--run: Value -1 not in range"},
+        Wrong{"compare scene.yaml --jobs 0", "--jobs is 0; allowed: 1 to 1024"},
+        Wrong{"compare scene.yaml --jobs many", "--jobs is 'many', which is no whole number"},
+        Wrong{"compare scene.yaml --runs 0", "--runs is 0; allowed: 1 to 1000000"},
+        Wrong{"compare scene.yaml --runs 1.5", "--runs is '1.5', which is no whole number"},
+        Wrong{"compare scene.yaml --run -1", "--run is -1; allowed: 0 to 999999"},
         Wrong{"compare scene.yaml --resum", "did you mean '--resume'?"},
         Wrong{"compare --merge nowhere", "no part files (shard-I-of-N.runs) in 'nowhere'"},
         Wrong{"compare " + scene_file("textbook/train.yaml").string(), "is a series"},
         Wrong{"tune " + scene_file("textbook/train.yaml").string(), "is a series"},
         Wrong{"tune scene.yaml --design benedict-bordnr", "did you mean 'benedict-bordner'?"},
         Wrong{"tune scene.yaml --filter kalman", "--filter is 'kalman'; allowed are gh and ghk"},
-        Wrong{"tune scene.yaml --runs 0", "--runs: Value 0 not in range"}));
+        Wrong{"tune scene.yaml --runs 0", "--runs is 0; allowed"}));
 
 /// A disk of a few kilobytes in a folder, where that may be mounted.
 class SmallDisk {
