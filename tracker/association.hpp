@@ -45,7 +45,7 @@ struct Pairing {
 
 /// Gives every track at most one detection and every detection to at most one track, so that the
 /// sum of the chosen costs, counting miss_cost for each track without a detection, is the least
-/// possible (global nearest neighbour).
+/// possible (global nearest neighbour). @ingroup association
 ///
 /// Sparse successive shortest augmenting paths with node potentials (Jonker & Volgenant 1987; the
 /// private "miss" column of every track makes the problem always feasible). Ties are broken by
@@ -55,7 +55,7 @@ struct Pairing {
 /// @return the detection of each track, or kMissed
 std::vector<int> assign_globally(const CandidateTable& table, int detections, double miss_cost);
 
-/// The greedy rival: repeatedly takes the cheapest remaining pair. Quick, simple, not optimal.
+/// The greedy rival: takes the cheapest remaining pair again and again. @ingroup association
 std::vector<int> assign_greedily(const CandidateTable& table, int detections);
 
 }  // namespace ghtrack

@@ -9,7 +9,7 @@
 
 namespace ghtrack {
 
-/// Where a track expects its next detection, before the sensor's own error is counted.
+/// Where a track expects its next detection, without the error of the sensor. @ingroup association
 struct Prediction {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();    // [m]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the predicted position [m²]

@@ -17,6 +17,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/exit_code.hpp"
 #include "tools/cli/interruption.hpp"
+#include "tools/cli/manual.hpp"
 #include "tools/cli/messages.hpp"
 #include "tools/cli/usage.hpp"
 #include "tools/cli/usage_error.hpp"
@@ -449,6 +450,11 @@ int dispatch(std::vector<std::string> words) {
   add_gains(app, gains_options);
   add_track(app, track_options);
   add_score(app, score_options);
+  std::string manual_folder;  // for the build, so the help does not mention it
+  app.add_subcommand("manual", "Write manual pages and completions for shells")
+      ->group("")
+      ->add_option("FOLDER", manual_folder)
+      ->required();
   app.footer(
       "Examples:\n"
       "  ghtrack run scenes/three_regimes.yaml --video\n"
@@ -469,6 +475,7 @@ int dispatch(std::vector<std::string> words) {
       {"gains", [&] { return gains(gains_options, manners); }},
       {"track", [&] { return track(track_options, manners); }},
       {"score", [&] { return score(score_options, manners); }},
+      {"manual", [&] { return write_manual(app, manual_folder), 0; }},
   };
   std::vector<CommandWords> known = {words_of(app, "")};
   for (const CLI::App* command : app.get_subcommands({})) {

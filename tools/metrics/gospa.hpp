@@ -6,7 +6,7 @@
 
 namespace ghtrack {
 
-/// Parameters of the distance between a set of true points and a set of estimated points.
+/// Parameters of the distance between sets of true and of estimated points. @ingroup metrics
 struct GospaOptions {
   double cutoff = 10.0;  // c: the farthest that an estimate can be from its target [m], > 0
   double order = 2.0;    // p: how strongly outliers count, 1 ≤ p < ∞

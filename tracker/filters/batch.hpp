@@ -17,7 +17,7 @@ struct BatchGains {
   Real dt, half_dt2;
   Real g, h_per_dt, k2_per_dt2;
 
-  /// @param dt  time between updates [s], > 0
+  /// @param step  time between updates [s], > 0
   BatchGains(const Gains& gains, double step)
       : dt(static_cast<Real>(step)),
         half_dt2(static_cast<Real>(0.5 * step * step)),

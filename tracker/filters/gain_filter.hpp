@@ -34,7 +34,7 @@ struct ErrorModel {
 /// ones for that covariance: the filter is the Kalman filter of the same process noise.
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
-/// leave the filter as it was.
+/// leave the filter as it was. @ingroup gh_family
 template <int D>
 class GainFilter {
  public:

@@ -57,7 +57,7 @@ struct MemoryLaw {
   double theta = 0.8;
 };
 
-/// The gains of a filter during start-up, in the steady state and at other intervals.
+/// The gains of a filter during start-up, in the steady state and later. @ingroup time_steps
 struct GainSchedule {
   Gains steady = {};      // at the nominal interval
   double interval = 1.0;  // T, nominal time between updates [s]

@@ -27,7 +27,7 @@ struct KalmanModel {
 /// acceleration (Order 2). State: position, velocity[, acceleration], each with D components.
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
-/// leave the filter as it was.
+/// leave the filter as it was. @ingroup gh_family
 template <int Order, int D>
 class KalmanFilter {
   static_assert(Order == 1 || Order == 2);

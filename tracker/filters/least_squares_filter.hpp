@@ -12,7 +12,7 @@ namespace ghtrack {
 /// Growing memory: the least-squares polynomial of order 0, 1 or 2 through all measurements so
 /// far, updated one by one (Zarchan & Musoff). It forgets its initial guess, zero by default, with
 /// measurement order + 1; before that its derivatives mean nothing. Measurements are assumed to be
-/// equally spaced: after a miss or an uneven step the fit is approximate.
+/// equally spaced: after a miss or an uneven step the fit is approximate. @ingroup gh_family
 template <int D>
 class LeastSquaresFilter {
  public:

@@ -30,7 +30,7 @@ Damping damping(const Gains& gains);
 /// ζ of the slowest pole pair: −ln|z| / √(ln²|z| + arg² z); 1 for a positive real pole.
 double damping_ratio(const Gains& gains);
 
-/// Error variances in the steady state, as multiples of σ². Only for stable gains.
+/// Error variances in the steady state, as multiples of σ². Only for stable gains. @ingroup gains
 struct VarianceReduction {
   double x = 0.0;
   double dx = 0.0;          // [1/s²]
@@ -40,13 +40,13 @@ struct VarianceReduction {
 };
 
 /// Order 1: Asquith 1969; order 2: Mahafza 2000, eq. 9.118–9.120, with γ = 2k.
-/// @throws std::invalid_argument for unstable gains
+/// @throws std::invalid_argument for unstable gains @ingroup gains
 VarianceReduction variance_reduction(const Gains& gains, double dt);
 
 /// Variance of the residual: σ² (1 + prediction).
 double innovation_variance(const Gains& gains, double sigma, double dt);
 
-/// Steady error truth − estimate without noise.
+/// Steady error truth − estimate without noise. @ingroup gains
 struct Lag {
   double prediction = 0.0;
   double x = 0.0;
@@ -61,7 +61,7 @@ Lag steady_lag(const Gains& gains, double dt, double next_derivative);
 /// √(σ² VRF + lag²) of the filtered position on one axis.
 double predicted_rmse(const Gains& gains, double sigma, double dt, double next_derivative);
 
-/// Σ (error of the predicted position)² after a unit error in one component, without noise.
+/// Σ (error of the predicted position)² after a unit error, without noise. @ingroup gains
 struct TransientEnergy {
   double position = 0.0;
   double velocity = 0.0;      // per (unit of velocity)² [s²]

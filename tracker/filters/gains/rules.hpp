@@ -25,7 +25,7 @@ constexpr std::array<std::pair<std::string_view, ProcessModel>, 3> enum_names(Pr
 
 /// Least squares over all n measurements so far, n = 1, 2, … (Zarchan & Musoff, Fundamentals of
 /// Kalman Filtering). Below order + 1 measurements the values only carry the recursion on.
-/// @param order  0, 1 or 2
+/// @param order  0, 1 or 2 @ingroup gains
 Gains growing_memory_gains(int order, int n);
 
 /// The n-th gains of a filter that starts at its first measurement: for n ≤ order the polynomial
@@ -33,11 +33,11 @@ Gains growing_memory_gains(int order, int n);
 Gains start_up_gains(int order, int n);
 
 /// Exponentially discounted least squares: all poles at θ. The same gains are called critically
-/// damped. @param theta  in [0, 1]; 0 follows the measurements, 1 ignores them
+/// damped. @param theta  in [0, 1]; 0 follows the measurements, 1 ignores them @ingroup gains
 Gains fading_memory_gains(int order, double theta);
 
 /// h = g² / (2 − g), the best compromise of noise and velocity steps (Benedict & Bordner 1962).
-/// @param g  in (0, 1]
+/// @param g  in (0, 1] @ingroup gains
 Gains benedict_bordner_gains(double g);
 
 /// The three-gain counterpart: the minimiser of noise and acceleration steps at a given g,
@@ -63,11 +63,11 @@ constexpr double tracking_index(double process_noise, double sigma, double dt) {
 /// For ProcessModel::kRandomWalk λ² = q T² / R with q the variance of a velocity jump, for
 /// kWhiteNoise λ² = q T³ / R with q the spectral density. Orders 0 and 2 know the first two
 /// models, which give them the same gains.
-/// @param index  λ ≥ 0
+/// @param index  λ ≥ 0 @ingroup gains
 Gains tracking_index_gains(int order, double index,
                            ProcessModel model = ProcessModel::kPiecewiseConstant);
 
-/// The λ for which a g-h pair on Kalata's curve is optimal: h / √(1 − g). @param g  below 1
+/// The λ for which a g-h pair on Kalata's curve is optimal: h / √(1 − g). @param gains  g < 1
 double implied_tracking_index(const Gains& gains);
 
 /// The g-h pair on Kalata's curve with the smallest √(noise² + lag²) in position under a lasting
