@@ -61,10 +61,16 @@ void append_rows(std::int64_t id, int longest_gap, std::span<const Sighting> sig
   }
 }
 
+/// Whether a track was seen in most of the frames from its first to its last. What comes and goes
+/// is often no object.
+bool is_steady(std::span<const Sighting> sightings) {
+  const auto seen = std::count_if(sightings.begin(), sightings.end(),
+                                  [](const Sighting& now) { return !now.is_predicted; });
+  return 2 * seen > sightings.back().frame - sightings.front().frame;
+}
+
 std::vector<MotRow> rows_of(const BoxOutputConfig& output, const Sightings& tracks) {
   const bool from_first_sight = output.from_first_sight.value_or(output.fill);
-  const int longest_gap =
-      output.longest_gap.value_or(output.fill ? BoxOutputConfig::kLongestGap : 0);
   std::vector<std::span<const Sighting>> confirmed;
   for (const auto& [id, sightings] : tracks) {
     const auto first = std::find_if(sightings.begin(), sightings.end(),
@@ -76,6 +82,8 @@ std::vector<MotRow> rows_of(const BoxOutputConfig& output, const Sightings& trac
                    [](const auto& a, const auto& b) { return a.front().frame < b.front().frame; });
   std::vector<MotRow> rows;
   for (std::size_t i = 0; i < confirmed.size(); ++i) {
+    const bool fills = output.fill && is_steady(confirmed[i]);
+    const int longest_gap = output.longest_gap.value_or(fills ? BoxOutputConfig::kLongestGap : 0);
     append_rows(static_cast<std::int64_t>(i) + 1, longest_gap, confirmed[i], rows);
   }
   std::sort(rows.begin(), rows.end(), [](const MotRow& a, const MotRow& b) {

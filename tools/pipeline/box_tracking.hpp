@@ -27,8 +27,9 @@ struct BoxOutputConfig {
   static void describe(Visitor& v) {
     v.field("fill", &BoxOutputConfig::fill,
             {.meaning = "what was known later is written as well: the boxes of a track from before "
-                        "it was confirmed, and boxes in between where it was not seen for up to 30 "
-                        "images; the output is then no longer causal"});
+                        "it was confirmed, and, if it was seen in most of its images, boxes in "
+                        "between where it was not for up to 30; the output is then no longer "
+                        "causal"});
     v.field("from_first_sight", &BoxOutputConfig::from_first_sight,
             {.meaning = "once a track is confirmed, its boxes from before are written too; by "
                         "default as `fill` says"});

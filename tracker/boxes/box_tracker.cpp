@@ -22,6 +22,7 @@ constexpr double kFirstImage = 2.6;      // of a box that nothing came before
 constexpr double kBelief = 2.5;          // from which a coasting track is believed
 constexpr double kTentativeCost = 2.5;   // of a pair with a track that is not confirmed
 constexpr int kWellKnown = 6;            // detections from which a track teaches about motion
+constexpr int kShortGap = 4;             // images after which another one is rarely found
 constexpr double kAssumedSpeed = 0.1;    // [scale per image]
 constexpr double kAssumedManoeuvre = 0.004;  // [scale per image²]
 
@@ -179,7 +180,8 @@ void hit(const BoxNoise& noise, const Candidacy& seen, BoxLearning& learning, Bo
     learning.coasting.add_found(track.unseen, overlap(track.box, seen.box) >= 0.5);
   }
   if (was_confirmed && track.hits >= kWellKnown) {
-    if (track.unseen >= 2) learning.manoeuvres.add(there.place_distance);
+    const bool is_short_gap = track.unseen >= 2 && track.unseen <= kShortGap;
+    if (is_short_gap) learning.manoeuvres.add(there.place_distance);
     if (track.unseen == 0) learning.speed.add(track.velocity / std::sqrt(track.box.area()));
   }
   const double evidence = kMatch + evidence_of_score(seen.score) -
