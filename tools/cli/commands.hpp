@@ -122,6 +122,7 @@ int tune(const TuneOptions& options, const Manners& manners);
 int check(const SceneOptions& options, const Manners& manners);
 int schema();
 int reference();
+int track_reference();
 int filter(const FilterCommandOptions& options, const Manners& manners);
 int gains(const GainsCommandOptions& options, const Manners& manners);
 int track(const TrackOptions& options, const Manners& manners);

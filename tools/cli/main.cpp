@@ -123,15 +123,17 @@ CLI::Option* add_repeated(CLI::App& command, const std::string& name,
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options, bool several) {
-  auto* files = command.add_option("SCENE", options.files, "scene file (YAML); - reads standard input")
-                    ->required();
+  auto* files =
+      command.add_option("SCENE", options.files, "scene file (YAML); - reads standard input")
+          ->required();
   files->expected(several ? -1 : 1);
   command.add_option("--seed", options.seed,
                      "seed of all random numbers (default: what the scene says, else 1)");
   command.add_option("--duration", options.duration,
                      "length of the run [s] (default: what the scene says, else 20)");
-  add_repeated(command, "--set", options.overrides,
-               "KEY=VALUE: change a key of the scene, such as sensors[0].noise=0.5; may be repeated");
+  add_repeated(
+      command, "--set", options.overrides,
+      "KEY=VALUE: change a key of the scene, such as sensors[0].noise=0.5; may be repeated");
 }
 
 /// What a video shows, and how large it is.
@@ -175,9 +177,10 @@ void add_video(CLI::App& app, VideoCommandOptions& options) {
              "scene time of the first frame [s] (default: 0)");
   add_number(command, "--to", options.to, {.least = 0, .most = 1e6},
              "scene time of the end [s] (default: the scene's end)");
-  command.add_option("--encoder", options.encoder,
-                     "ffmpeg (a pipe to the program), opencv (no other process; no webm, no gif), "
-                     "or auto: ffmpeg where it is installed, else opencv")
+  command
+      .add_option("--encoder", options.encoder,
+                  "ffmpeg (a pipe to the program), opencv (no other process; no webm, no gif), "
+                  "or auto: ffmpeg where it is installed, else opencv")
       ->capture_default_str();
   command.add_option("--poster", options.poster, "also write the last picture to this PNG file");
   command.add_flag("--compare", options.compare,
@@ -209,9 +212,8 @@ void add_compare(CLI::App& app, CompareOptions& options) {
                      "I/N: only every N-th run, from number I on (0 to N-1), into a part file");
   command.add_option("--merge", options.merge, "join the part files in this folder");
   command.add_flag("--resume", options.resume, "compute only what the part files lack");
-  CLI::Option* const run =
-      add_number(command, "--run", options.run, {.least = 0, .most = 999'999},
-                 "replay this run alone (from 0) and print its rows");
+  CLI::Option* const run = add_number(command, "--run", options.run, {.least = 0, .most = 999'999},
+                                      "replay this run alone (from 0) and print its rows");
   command.add_flag("--video", options.video, "with --run: also film it, all filters side by side")
       ->needs(run);
   command.footer(
@@ -323,8 +325,7 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
   add_number(command, "--dt", options.dt, kDuration, "time step [s]");
   add_number(command, "--sigma", options.sigma, kModelNoise,
              "measurement noise for the variances [m]");
-  add_number(command, "--accel", options.accel, kAny,
-             "acceleration for the lag, order 1 [m/s^2]");
+  add_number(command, "--accel", options.accel, kAny, "acceleration for the lag, order 1 [m/s^2]");
   add_number(command, "--jerk", options.jerk, kAny, "jerk for the lag, order 2 [m/s^3]");
   command.add_flag("--json", options.json, "print JSON");
   command.footer(
@@ -343,7 +344,8 @@ void add_track(CLI::App& app, TrackOptions& options) {
   command
       .add_option("--format", options.format, "csv, mot, or auto: mot if there is no header row")
       ->capture_default_str();
-  command.add_option("--config", options.config, "YAML file with a tracker, as in a scene");
+  command.add_option("--config", options.config,
+                     "YAML file; `ghtrack reference --track` lists its keys");
   command.add_option("-o,--output", options.output,
                      "file, or folder for several sequences (default: standard output)");
   command.add_option("--evaluation-folder", options.evaluation_folder,
@@ -444,8 +446,11 @@ int dispatch(std::vector<std::string> words) {
   add_check(app, check_options);
   app.add_subcommand("schema", "Print the JSON Schema of scene files")
       ->footer("Examples:\n  ghtrack schema > scenes/scene.schema.json");
+  bool reference_of_track = false;
   app.add_subcommand("reference", "Print the reference of scene files (Markdown)")
-      ->footer("Examples:\n  ghtrack reference > scenes/README.md");
+      ->footer("Examples:\n  ghtrack reference > scenes/README.md\n  ghtrack reference --track")
+      ->add_flag("--track", reference_of_track,
+                 "the reference of the files for `ghtrack track --config` instead");
   add_filter(app, filter_options);
   add_gains(app, gains_options);
   add_track(app, track_options);
@@ -470,7 +475,7 @@ int dispatch(std::vector<std::string> words) {
       {"tune", [&] { return tune(tune_options, manners); }},
       {"check", [&] { return check(check_options, manners); }},
       {"schema", [] { return schema(); }},
-      {"reference", [] { return reference(); }},
+      {"reference", [&] { return reference_of_track ? track_reference() : reference(); }},
       {"filter", [&] { return filter(filter_options, manners); }},
       {"gains", [&] { return gains(gains_options, manners); }},
       {"track", [&] { return track(track_options, manners); }},

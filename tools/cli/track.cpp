@@ -14,6 +14,7 @@
 
 #include "scenes/schema/configuration.hpp"
 #include "scenes/schema/descriptions.hpp"
+#include "scenes/schema/reference.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
@@ -87,7 +88,7 @@ fs::path output_file(const std::string& output, const std::string& name) {
 void report_refusals(const auto& state, const Manners& manners) {
   if (manners.quiet || state.scans_refused + state.detections_refused == 0) return;
   tell("ghtrack: warning: refused {} scans out of order and {} unusable detections",
-             state.scans_refused, state.detections_refused);
+       state.scans_refused, state.detections_refused);
 }
 
 void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTimes& times,
@@ -139,8 +140,7 @@ void track_sequences(const TrackOptions& options, const OfflineConfig& config, S
       return track_boxes(config.boxes, config.box_output, detections);
     });
     if (!manners.quiet) {
-      fmt::print(stderr, "ghtrack: {}: {}\n", sequence.name,
-                 summary(config.boxes, detections, tracks));
+      tell("ghtrack: {}: {}", sequence.name, summary(config.boxes, detections, tracks));
     }
     report_refusals(tracks.state, manners);
     times.of(StageTimes::kWrite, [&] {
@@ -208,6 +208,17 @@ int track(const TrackOptions& options, const Manners& manners) {
     track_csv(options, config, times, manners);
   }
   if (options.timings) tell("ghtrack: {}", times.text());
+  return 0;
+}
+
+int track_reference() {
+  print(R"(# Files for `ghtrack track --config`
+
+How somebody else's detections are tracked. All keys are optional. `boxes` and `box_output` are for
+boxes of MOTChallenge, whose lengths are multiples of a box's scale, the root of its area, and whose
+times count images; all others are for points. What has no default is learned from the data.
+
+)" + schema::reference_tables(schema::type_of<OfflineConfig>()));
   return 0;
 }
 

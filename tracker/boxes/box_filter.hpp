@@ -48,7 +48,7 @@ struct BoxResidual {
 BoxResidual residual(const BoxNoise& noise, const BoxEstimate& estimate, const BoundingBox& seen);
 
 /// Takes a seen box in. Errors of a detector last for several images: half as much again is added
-/// to their variance, so that the velocity does not follow them.
+/// to their variance, so that the velocity does not follow them. @ingroup boxes
 void correct(const BoxNoise& noise, const BoxResidual& residual, BoxEstimate& estimate);
 
 }  // namespace ghtrack

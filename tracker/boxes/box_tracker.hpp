@@ -189,6 +189,7 @@ BoxNoise box_noise(const BoxTrackerConfig& config, const BoxLearning& learning);
 ///               image without one lowers it; boxes of enough confidence that no track claims and
 ///               none explains by overlapping with them start tracks
 /// The order of the boxes makes no difference. What cannot be used is refused and counted.
+/// @ingroup boxes
 BoxTrackerState step(const BoxTrackerConfig& config, BoxTrackerState state, const BoxScan& scan);
 
 }  // namespace ghtrack

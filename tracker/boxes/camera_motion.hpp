@@ -13,6 +13,7 @@ namespace ghtrack {
 /// or two objects do is not taken for the camera.
 /// @param estimates  predicted to this image; only objects seen in the image before
 /// @param boxes      seen in this image
+/// @ingroup boxes
 Eigen::Vector2d common_shift(const BoxNoise& noise, std::span<const BoxEstimate* const> estimates,
                              std::span<const BoundingBox> boxes);
 
