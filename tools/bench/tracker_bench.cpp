@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/record/csv_reader.hpp"
+#include "tools/data/scan_reader.hpp"
 #include "tracker/boxes/box_tracker.hpp"
 #include "tracker/tracker.hpp"
 

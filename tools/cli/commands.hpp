@@ -95,8 +95,28 @@ struct GainsCommandOptions {
   bool json = false;
 };
 
+/// How somebody else's tables are to be read.
+struct DataOptions {
+  std::string columns;  // t=NAME,x=NAME,…; empty: by their names
+  std::optional<double> frame_rate;
+  bool skip_bad_rows = false;
+};
+
+struct PlotOptions {
+  std::string source;  // folder of a run, tracks, or a series
+  std::string output;  // file ending in svg, pdf or png
+  std::string truth, detections;
+  DataOptions data;  // how the detections are to be read
+  std::vector<std::string> panels;
+  std::string size = "screen";
+  std::string title;
+  bool dark = false;
+};
+
 struct TrackOptions {
   std::vector<std::string> detections;  // files, or MOTChallenge sequence folders
+  DataOptions data;
+  bool degrees = false;  // also write latitude and longitude
   std::string format = "auto";
   std::string config;             // YAML file of a tracker; empty: the defaults
   std::string output;             // empty: standard output
@@ -106,10 +126,13 @@ struct TrackOptions {
 };
 
 struct ScoreOptions {
-  std::string truth, tracks;
+  std::vector<std::string> truth, tracks;  // files or folders, as many
+  DataOptions data;
   std::string format = "auto";
-  std::optional<double> gospa_c, gospa_p, gospa_alpha, gospa_switching, ospa_p, match_distance;
-  std::string per_step;
+  std::optional<double> gospa_c, gospa_p, gospa_alpha, gospa_switching, tgospa_gamma, ospa_p,
+      match_distance;
+  std::string benchmark = "auto";
+  std::string per_step, matches;  // CSV files; empty: none
   bool json = false;
 };
 
@@ -127,5 +150,6 @@ int filter(const FilterCommandOptions& options, const Manners& manners);
 int gains(const GainsCommandOptions& options, const Manners& manners);
 int track(const TrackOptions& options, const Manners& manners);
 int score(const ScoreOptions& options, const Manners& manners);
+int plot(const PlotOptions& options);
 
 }  // namespace ghtrack::cli

@@ -335,6 +335,16 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
       "  ghtrack gains tracking-index --index 0.5 --order 2");
 }
 
+void add_data_options(CLI::App& command, DataOptions& options) {
+  command.add_option("--columns", options.columns,
+                     "which columns to read, where their names do not tell: "
+                     "t=NAME,x=NAME,y=NAME[,sensor=NAME,class=NAME,sigma=NAME,…], by name or number");
+  add_number(command, "--frame-rate", options.frame_rate, {.least = 1e-6, .most = 1e9},
+             "images per second, where a column of their numbers stands for the time [Hz]");
+  command.add_flag("--skip-bad-rows", options.skip_bad_rows,
+                   "leave out rows that are no data, and say which, instead of refusing the file");
+}
+
 void add_track(CLI::App& app, TrackOptions& options) {
   CLI::App& command = *app.add_subcommand("track", "Track the detections of files");
   command
@@ -346,6 +356,9 @@ void add_track(CLI::App& app, TrackOptions& options) {
       ->capture_default_str();
   command.add_option("--config", options.config,
                      "YAML file; `ghtrack reference --track` lists its keys");
+  add_data_options(command, options.data);
+  command.add_flag("--degrees", options.degrees,
+                   "for data in degrees: also write the columns lat and lon");
   command.add_option("-o,--output", options.output,
                      "file, or folder for several sequences (default: standard output)");
   command.add_option("--evaluation-folder", options.evaluation_folder,
@@ -364,13 +377,19 @@ void add_track(CLI::App& app, TrackOptions& options) {
 
 void add_score(CLI::App& app, ScoreOptions& options) {
   CLI::App& command = *app.add_subcommand("score", "Score tracks against the truth");
-  command.add_option("--truth", options.truth, "CSV t,truth_id,x,y or MOTChallenge gt.txt")
+  command
+      .add_option("--truth", options.truth,
+                  "CSV t,truth_id,x,y; MOTChallenge gt.txt; a folder of a run, of a sequence or of "
+                  "sequences; or several of these")
       ->required();
-  command.add_option("--tracks", options.tracks, "CSV t,track_id,x,y or MOTChallenge rows")
+  command
+      .add_option("--tracks", options.tracks,
+                  "CSV t,track_id,x,y; MOTChallenge rows; or a folder of these; as many")
       ->required();
   command
       .add_option("--format", options.format, "csv, mot, or auto: mot if there is no header row")
       ->capture_default_str();
+  add_data_options(command, options.data);
   add_number(command, "--gospa-c", options.gospa_c, kPositive,
              "GOSPA, OSPA: cut-off distance [m] (default: 10, or 30 px for boxes)");
   add_number(command, "--gospa-p", options.gospa_p, {.least = 1},
@@ -380,14 +399,55 @@ void add_score(CLI::App& app, ScoreOptions& options) {
              "GOSPA: cost of a missed or false track (default: 2)");
   add_number(command, "--gospa-switching", options.gospa_switching, kPositive,
              "GOSPA: penalty of a change of track [m], adds gospa_switching");
+  add_number(command, "--tgospa-gamma", options.tgospa_gamma, kPositive,
+             "T-GOSPA: penalty of a change of track [m] (default: a fifth of the cut-off)");
   command.add_option("--ospa-p", options.ospa_p, "OSPA: exponent of its own, inf is allowed");
   add_number(command, "--match-distance", options.match_distance, kPositive,
              "largest distance of a match [m]");
+  command
+      .add_option("--benchmark", options.benchmark,
+                  "whose rules say which boxes are scored: MOT15, MOT16, MOT17, MOT20, none, or "
+                  "auto: as the truth file shows")
+      ->capture_default_str();
+  command.add_option("--matches", options.matches,
+                     "also write which track matched which object at each instant, CSV");
   command.add_option("--per-step", options.per_step, "also write the metrics of each step, CSV");
   command.add_flag("--json", options.json, "print JSON");
   command.footer(
       "Examples:\n"
-      "  ghtrack score --truth out/three_regimes/truth.csv --tracks out/three_regimes/tracks.csv");
+      "  ghtrack score --truth out/three_regimes/truth.csv --tracks out/three_regimes/tracks.csv\n"
+      "With sequences of MOTChallenge at hand:\n"
+      "  ghtrack score --truth MOT17/train --tracks results/data");
+}
+
+void add_plot(CLI::App& app, PlotOptions& options) {
+  CLI::App& command =
+      *app.add_subcommand("plot", "Draw a run, tracks or a series: paths, errors, residuals");
+  command
+      .add_option("SOURCE", options.source,
+                  "folder of a run; tracks (CSV or MOTChallenge); or a series, as filter writes it")
+      ->required();
+  command.add_option("-o,--output", options.output, "file ending in svg, pdf or png")->required();
+  command.add_option("--truth", options.truth, "CSV t,truth_id,x,y: for errors and NEES");
+  command.add_option("--detections", options.detections, "CSV t,x,y: drawn as dots");
+  add_data_options(command, options.data);
+  command
+      .add_option("--panels", options.panels,
+                  "which, separated by commas: path, x, y, vx, vy, error_x, error_y, residual_x, "
+                  "residual_y, nees, nis, existence (default: all that the data give)")
+      ->delimiter(',');
+  command
+      .add_option("--size", options.size,
+                  "screen, slide, or column or page of a paper (88.9 and 181.9 mm)")
+      ->check(CLI::IsMember({"screen", "slide", "column", "page"}))
+      ->capture_default_str();
+  command.add_option("--title", options.title, "above the panels");
+  command.add_flag("--dark", options.dark, "light on dark");
+  command.footer(
+      "Examples:\n"
+      "  ghtrack plot out/three_regimes -o run.svg\n"
+      "  ghtrack plot out/three_regimes/tracks.csv --truth out/three_regimes/truth.csv --panels "
+      "path,error_x,nees --size column -o paper.pdf");
 }
 
 /// What a command's words may be.
@@ -438,6 +498,7 @@ int dispatch(std::vector<std::string> words) {
   GainsCommandOptions gains_options;
   TrackOptions track_options;
   ScoreOptions score_options;
+  PlotOptions plot_options;
   add_run(app, run_options);
   add_video(app, video_options);
   add_view(app, view_options);
@@ -455,6 +516,7 @@ int dispatch(std::vector<std::string> words) {
   add_gains(app, gains_options);
   add_track(app, track_options);
   add_score(app, score_options);
+  add_plot(app, plot_options);
   std::string manual_folder;  // for the build, so the help does not mention it
   app.add_subcommand("manual", "Write manual pages and completions for shells")
       ->group("")
@@ -480,6 +542,7 @@ int dispatch(std::vector<std::string> words) {
       {"gains", [&] { return gains(gains_options, manners); }},
       {"track", [&] { return track(track_options, manners); }},
       {"score", [&] { return score(score_options, manners); }},
+      {"plot", [&] { return plot(plot_options); }},
       {"manual", [&] { return write_manual(app, manual_folder), 0; }},
   };
   std::vector<CommandWords> known = {words_of(app, "")};

@@ -3,13 +3,22 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/data_source.hpp"
+#include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/score_files.hpp"
 #include "tools/cli/usage_error.hpp"
-#include "tools/metrics/score.hpp"
+#include "tools/metrics/match_writer.hpp"
+#include "tools/metrics/mot_benchmark.hpp"
+#include "tools/metrics/point_scoring.hpp"
 #include "tools/record/atomic_file.hpp"
+#include "tools/record/errors.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -25,16 +34,41 @@ double positive(const std::optional<double>& option, double fallback, const char
   return value;
 }
 
-ghtrack::ScoreOptions settings(const ScoreOptions& options, bool boxes) {
+/// What a run was scored with, as the metrics.json beside its truth.csv has it, so that both say
+/// the same of the same files.
+void take_parameters_of_run(const std::string& truth, ghtrack::ScoreOptions& result) {
+  const std::filesystem::path file(truth);
+  if (file.filename() != "truth.csv") return;
+  std::ifstream metrics(file.parent_path() / "metrics.json");
+  if (!metrics) return;
+  const auto json = nlohmann::json::parse(metrics, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || !json.contains("parameters")) return;
+  const auto& parameters = json["parameters"];
+  const auto take = [&](const char* name, double fallback) {
+    const auto found = parameters.find(name);
+    return found != parameters.end() && found->is_number() ? found->get<double>() : fallback;
+  };
+  result.gospa.cutoff = take("gospa_c", result.gospa.cutoff);
+  result.gospa.order = take("gospa_p", result.gospa.order);
+  result.gospa.alpha = take("gospa_alpha", result.gospa.alpha);
+  result.match_distance = take("match_distance", result.gospa.cutoff);
+}
+
+ghtrack::ScoreOptions settings(const ScoreOptions& options, const ScorePair& pair, bool boxes) {
   ghtrack::ScoreOptions result;
-  result.gospa.cutoff =
-      positive(options.gospa_c, boxes ? kBoxCutoff : result.gospa.cutoff, "--gospa-c");
+  if (boxes) result.gospa.cutoff = kBoxCutoff;
+  take_parameters_of_run(pair.truth, result);
+  if (options.gospa_c) result.match_distance.reset();
+  result.gospa.cutoff = positive(options.gospa_c, result.gospa.cutoff, "--gospa-c");
   result.gospa.order = positive(options.gospa_p, result.gospa.order, "--gospa-p");
   result.gospa.alpha = positive(options.gospa_alpha, result.gospa.alpha, "--gospa-alpha");
   if (result.gospa.order < 1.0) throw UsageError("score: --gospa-p must be at least 1");
   if (result.gospa.alpha > 2.0) throw UsageError("score: --gospa-alpha must be at most 2");
   if (options.gospa_switching) {
     result.switching_penalty = positive(options.gospa_switching, 0.0, "--gospa-switching");
+  }
+  if (options.tgospa_gamma) {
+    result.trajectory_penalty = positive(options.tgospa_gamma, 0.0, "--tgospa-gamma");
   }
   if (options.ospa_p) {
     if (!(*options.ospa_p >= 1.0)) throw UsageError("score: --ospa-p must be at least 1");
@@ -46,27 +80,141 @@ ghtrack::ScoreOptions settings(const ScoreOptions& options, bool boxes) {
   return result;
 }
 
-ScoreResult score_files(const ScoreOptions& options) {
-  const bool boxes =
-      options.format == "mot" || (options.format == "auto" && looks_like_mot_file(options.truth));
-  if (options.format != "auto" && options.format != "csv" && options.format != "mot") {
-    throw UsageError(
-        fmt::format("score: --format is '{}'; allowed are auto, csv and mot", options.format));
+/// Files that are written as the instants go by, if they were asked for.
+class Extras {
+ public:
+  Extras(const ScoreOptions& options, bool several) : several_(several) {
+    if (!options.per_step.empty()) {
+      steps_.emplace(options.per_step);
+      steps_->write((several ? "sequence," : "") + step_csv_header());
+    }
+    if (!options.matches.empty()) matches_.emplace(options.matches, several);
   }
-  if (boxes) {
-    return score(read_mot_file(options.truth, MotKind::kTruth),
-                 read_mot_file(options.tracks, MotKind::kResult), settings(options, true));
+
+  void add(const std::string& sequence, const Scorer::Step& step, const ScoredSet& truth,
+           const ScoredSet& tracks) {
+    if (steps_) {
+      CsvRow name;
+      if (several_) name << sequence;
+      steps_->write(name.text() + (several_ ? "," : "") + step_csv_row(step.score));
+    }
+    if (matches_) matches_->add(sequence, step, truth, tracks);
   }
-  return score(read_truth_csv(options.truth), read_tracks_csv(options.tracks),
-               settings(options, false));
+
+  void commit() {
+    if (steps_) steps_->commit();
+    if (matches_) matches_->commit();
+  }
+
+ private:
+  bool several_;
+  std::optional<AtomicFile> steps_;
+  std::optional<MatchWriter> matches_;
+};
+
+ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, Extras& extras,
+                            const Manners& manners) {
+  const std::vector<MotRow> truth = read_mot_file(pair.truth, MotKind::kTruth);
+  const std::vector<MotRow> tracks = read_mot_file(pair.tracks, MotKind::kResult);
+  const bool automatic = options.benchmark == "auto";
+  const auto named = automatic ? std::optional(recognise_benchmark(pair.truth, truth))
+                               : benchmark_named(options.benchmark);
+  if (!named) {
+    throw UsageError(fmt::format(
+        "score: --benchmark is '{}'; allowed are auto, MOT15, MOT16, MOT17, MOT20 and none",
+        shown(options.benchmark)));
+  }
+  if (automatic && !manners.quiet) {
+    tell("ghtrack: {}: scored under the rules of {}", pair.truth, to_string(*named));
+  }
+  return score_boxes(*named, pair.truth, truth, tracks, settings(options, pair, true),
+                     [&](const Scorer::Step& step, const ScoredSet& objects,
+                         const ScoredSet& estimates) {
+                       stop_if_interrupted();
+                       extras.add(pair.name, step, objects, estimates);
+                     });
+}
+
+/// Says which instants had no counterpart, and what became of them.
+void tell_of_instants(const InstantCounts& counts, double truth_period, double track_period,
+                      const Manners& manners) {
+  if (manners.quiet) return;
+  const auto tell = [](std::int64_t count, const std::string& whose, const std::string& what) {
+    if (count > 0) tell("ghtrack: {} instants of the {} {}", count, whose, what);
+  };
+  tell(counts.truth_unscored, "truth",
+       fmt::format("are not scored: they lie between those of the tracks, which are {:.4g} s apart",
+                   track_period));
+  tell(counts.tracks_unscored, "tracks",
+       fmt::format("are not scored: they lie between those of the truth, which are {:.4g} s apart",
+                   truth_period));
+  tell(counts.truth_alone, "truth", "have no tracks; they are scored as missed");
+  tell(counts.tracks_alone, "tracks", "have no truth; they are scored as false");
+}
+
+ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair, Extras& extras,
+                              const Manners& manners) {
+  const ReadOptions reading = read_options(options.data);
+  PointReader tracks(pair.tracks, PointKind::kTracks, reading);
+  PointReader truth(pair.truth, PointKind::kTruth, reading, tracks.origin());
+  if (truth.origin() && !tracks.origin()) {
+    throw InputError(fmt::format("{}: error: the truth is in degrees, the tracks are in metres "
+                                 "around an origin that their columns origin_lat and origin_lon do "
+                                 "not tell",
+                                 pair.tracks));
+  }
+  tell_what_was_read(truth.understood(), truth.left_out(), truth.remarks(), manners);
+  tell_what_was_read(tracks.understood(), tracks.left_out(), tracks.remarks(), manners);
+  const ScoreResult result = score_points(
+      {[&] { return truth.next(); }, truth.period()},
+      {[&] { return tracks.next(); }, tracks.period()}, settings(options, pair, false),
+      [&](const Scorer::Step& step, const ScoredSet& objects, const ScoredSet& estimates) {
+        stop_if_interrupted();
+        extras.add(pair.name, step, objects, estimates);
+      });
+  tell_of_instants(result.instants, truth.period(), tracks.period(), manners);
+  return result;
+}
+
+bool are_boxes(const ScoreOptions& options, const ScorePair& pair) {
+  return options.format == "mot" ||
+         (options.format == "auto" && options.data.columns.empty() &&
+          looks_like_mot_file(pair.truth));
 }
 
 }  // namespace
 
-int score(const ScoreOptions& options, const Manners&) {
-  const ScoreResult result = score_files(options);
-  if (!options.per_step.empty()) write_file(options.per_step, per_step_csv(result));
-  print(options.json ? to_json(result).dump() + "\n" : to_text(result));
+int score(const ScoreOptions& options, const Manners& manners) {
+  if (options.format != "auto" && options.format != "csv" && options.format != "mot") {
+    throw UsageError(
+        fmt::format("score: --format is '{}'; allowed are auto, csv and mot", options.format));
+  }
+  const std::vector<ScorePair> pairs = pairs_to_score(options);
+  const bool several = pairs.size() > 1;
+  Extras extras(options, several);
+  std::vector<ScoreResult> results;
+  for (const ScorePair& pair : pairs) {
+    results.push_back(are_boxes(options, pair) ? score_box_files(options, pair, extras, manners)
+                                               : score_point_files(options, pair, extras, manners));
+  }
+  extras.commit();
+  const ScoreResult total = several ? combine(results) : results.front();
+  if (!total.trajectories && !manners.quiet) {
+    tell("ghtrack: T-GOSPA is left out: its linear programme is too large to be solved in passing; "
+         "--tgospa-gamma asks for it");
+  }
+  if (options.json) {
+    nlohmann::ordered_json json = to_json(total);
+    for (std::size_t i = 0; several && i < pairs.size(); ++i) {
+      json["sequences"][pairs[i].name] = to_json(results[i]);
+    }
+    print(json.dump() + "\n");
+    return 0;
+  }
+  for (std::size_t i = 0; several && i < pairs.size(); ++i) {
+    print(fmt::format("{}\n{}\n", printable(pairs[i].name), to_text(results[i])));
+  }
+  print((several ? "combined\n" : "") + to_text(total));
   return 0;
 }
 

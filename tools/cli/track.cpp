@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,12 +17,14 @@
 #include "scenes/schema/descriptions.hpp"
 #include "scenes/schema/reference.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/data_source.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
 #include "tools/cli/usage_error.hpp"
+#include "tools/data/formats.hpp"
+#include "tools/data/scan_reader.hpp"
 #include "tools/pipeline/box_tracking.hpp"
 #include "tools/pipeline/offline.hpp"
-#include "tools/record/csv_reader.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/mot_folder.hpp"
 #include "tools/record/run_writer.hpp"
@@ -91,22 +94,85 @@ void report_refusals(const auto& state, const Manners& manners) {
        state.scans_refused, state.detections_refused);
 }
 
+/// The origin of local metres in every row, and degrees if they were asked for.
+TrackColumns geographic_columns(const std::optional<GeoPoint>& origin, bool degrees) {
+  if (!origin) return {};
+  TrackColumns columns{.names = {"origin_lat", "origin_lon"}, .append = {}};
+  if (degrees) columns.names.insert(columns.names.end(), {"lat", "lon"});
+  columns.append = [origin, degrees](CsvRow& row, const TrackEstimate& track) {
+    row << origin->latitude << origin->longitude;
+    if (!degrees) return;
+    const GeoPoint point = to_degrees(*origin, track.position);
+    row << point.latitude << point.longitude;
+  };
+  return columns;
+}
+
+/// Gathers whole tracks in degrees, without what is tentative.
+class GeoTracks {
+ public:
+  explicit GeoTracks(const GeoPoint& origin) : origin_(origin) {}
+
+  void add(const TrackSnapshot& now) {
+    for (const TrackEstimate& track : now.tracks) {
+      if (track.status == TrackStatus::kTentative) continue;
+      GeoTrack& own = by_id_[track.id];
+      own.id = track.id;
+      const TrackPoint point{now.time, to_degrees(origin_, track.position)};
+      if (!own.points.empty() && own.points.back().time == now.time) own.points.pop_back();
+      own.points.push_back(point);
+    }
+  }
+
+  std::vector<GeoTrack> all() const {
+    std::vector<GeoTrack> tracks;
+    for (const auto& [id, track] : by_id_) tracks.push_back(track);
+    return tracks;
+  }
+
+ private:
+  GeoPoint origin_;
+  std::map<int, GeoTrack> by_id_;
+};
+
 void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTimes& times,
                const Manners& manners) {
-  const DetectionTable table =
-      times.of(StageTimes::kRead, [&] { return read_detections_csv(options.detections.front()); });
-  times.count_scans(table.scans.size());
-  TrackWriter writer(output_file(options.output, "tracks.csv"));
-  StepTimes steps;
-  const TrackerState state = times.of(StageTimes::kTrack, [&] {
-    const auto add = [&](const TrackSnapshot& snapshot) {
-      stop_if_interrupted();
-      writer.add(snapshot);
-    };
-    return track_offline(config, table.scans, add, &steps);
+  ScanReader reader = times.of(StageTimes::kRead, [&] {
+    return ScanReader(options.detections.front(), read_options(options.data));
   });
-  times.split_tracking(steps);
-  times.of(StageTimes::kWrite, [&] { writer.commit(); });
+  const DataSummary& summary = reader.summary();
+  tell_what_was_read(summary, manners);
+  const bool geographic = is_geographic_file(options.output);
+  if ((options.degrees || geographic) && !summary.origin) {
+    throw UsageError("track: --degrees, GPX and GeoJSON need data in degrees");
+  }
+  const ScanSource scans{.next =
+                             [&](Scan& scan) {
+                               stop_if_interrupted();
+                               times.count_scans(1);
+                               return reader.next(scan);
+                             },
+                         .period = summary.period,
+                         .sensors = std::max(1, static_cast<int>(summary.sensors.size()))};
+  StepTimes steps;
+  TrackerState state;
+  const auto track_all = [&](const auto& on_scan) {
+    times.of(StageTimes::kTrack,
+             [&] { state = track_offline(config, scans, on_scan, &steps); });
+    times.split_tracking(steps);
+  };
+  if (geographic) {
+    GeoTracks tracks(*summary.origin);
+    track_all([&](const TrackSnapshot& now) { tracks.add(now); });
+    times.of(StageTimes::kWrite, [&] {
+      write_file(options.output, as_geographic_file(options.output, tracks.all()));
+    });
+  } else {
+    TrackWriter writer(output_file(options.output, "tracks.csv"),
+                       geographic_columns(summary.origin, options.degrees));
+    track_all([&](const TrackSnapshot& now) { writer.add(now); });
+    times.of(StageTimes::kWrite, [&] { writer.commit(); });
+  }
   report_refusals(state, manners);
 }
 
@@ -163,7 +229,8 @@ bool is_mot(const TrackOptions& options) {
   if (options.format != "auto") return options.format == "mot";
   std::error_code ignored;
   const std::string& first = options.detections.front();
-  return fs::is_directory(first, ignored) || looks_like_mot_file(first);
+  return fs::is_directory(first, ignored) ||
+         (options.data.columns.empty() && looks_like_mot_file(first));
 }
 
 void check(const TrackOptions& options, bool boxes) {

@@ -14,12 +14,24 @@ constexpr double kMostlyLost = 0.2;
 
 double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
+/// Fills in what follows from the counts.
+void derive(ClearMotResult& result) {
+  const auto truths = static_cast<double>(result.truths);
+  const auto matches = static_cast<double>(result.matches);
+  const auto wrong = static_cast<double>(result.false_tracks);
+  result.mota = ratio(matches - wrong - static_cast<double>(result.id_switches), truths);
+  result.mota_adjacent =
+      ratio(matches - wrong - static_cast<double>(result.id_switches_adjacent), truths);
+  result.motp = ratio(result.similarity, matches);
+  result.recall = ratio(matches, truths);
+  result.precision = ratio(matches, matches + wrong);
+}
+
 }  // namespace
 
 void ClearMot::add(const MotStep& step) {
   ++scan_;
   counts_.truths += std::ssize(step.truth);
-  tracks_ += std::ssize(step.tracks);
   for (const int object : step.truth) {
     if (object >= std::ssize(objects_)) objects_.resize(object + 1);
     ++objects_[object].scans;
@@ -47,7 +59,7 @@ void ClearMot::add(const MotStep& step) {
     const int number = step.truth[scores_[i].truth];
     const int track = step.tracks[scores_[i].track];
     Object& object = objects_[number];
-    similarity_ += similarities_[i];
+    counts_.similarity += similarities_[i];
     if (object.last_track >= 0 && object.last_track != track) {
       ++counts_.id_switches;
       if (object.matched_at == scan_ - 1) ++counts_.id_switches_adjacent;
@@ -82,16 +94,27 @@ ClearMotResult ClearMot::result() const {
     }
     if (object.runs > 1) result.fragmentations += object.runs - 1;
   }
-  const auto truths = static_cast<double>(counts_.truths);
-  const auto matches = static_cast<double>(counts_.matches);
-  const auto wrong = static_cast<double>(counts_.false_tracks);
-  result.mota = ratio(matches - wrong - static_cast<double>(counts_.id_switches), truths);
-  result.mota_adjacent =
-      ratio(matches - wrong - static_cast<double>(counts_.id_switches_adjacent), truths);
-  result.motp = ratio(similarity_, matches);
-  result.recall = ratio(matches, truths);
-  result.precision = ratio(matches, static_cast<double>(tracks_));
+  derive(result);
   return result;
+}
+
+ClearMotResult combine(std::span<const ClearMotResult> results) {
+  ClearMotResult sum;
+  for (const ClearMotResult& result : results) {
+    sum.truths += result.truths;
+    sum.matches += result.matches;
+    sum.misses += result.misses;
+    sum.false_tracks += result.false_tracks;
+    sum.id_switches += result.id_switches;
+    sum.id_switches_adjacent += result.id_switches_adjacent;
+    sum.fragmentations += result.fragmentations;
+    sum.mostly_tracked += result.mostly_tracked;
+    sum.partially_tracked += result.partially_tracked;
+    sum.mostly_lost += result.mostly_lost;
+    sum.similarity += result.similarity;
+  }
+  derive(sum);
+  return sum;
 }
 
 }  // namespace ghtrack

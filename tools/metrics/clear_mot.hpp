@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/metrics/mot_step.hpp"
@@ -25,7 +26,11 @@ struct ClearMotResult {
   double motp = 0.0;           // mean similarity of the matches: more is better
   double recall = 0.0;
   double precision = 0.0;
+  double similarity = 0.0;  // of all matches together
 };
+
+/// The result of several sequences together: counts are added.
+ClearMotResult combine(std::span<const ClearMotResult> results);
 
 /// Counts scan by scan. A pairing that held in the scan before is kept while it is admissible;
 /// among the rest the total similarity is the greatest possible. Scans without any object or
@@ -50,9 +55,7 @@ class ClearMot {
   std::vector<Pair> scores_;          // working space: the admissible pairs
   std::vector<double> similarities_;  // … and their similarities
   std::int64_t scan_ = 0;
-  std::int64_t tracks_ = 0;  // track-scans
   ClearMotResult counts_;
-  double similarity_ = 0.0;  // of all matches together
 };
 
 }  // namespace ghtrack

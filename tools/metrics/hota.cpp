@@ -36,6 +36,30 @@ double mean(const HotaResult::Series& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / kHotaThresholds;
 }
 
+double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
+
+/// Fills in what follows from the counts and the association at each threshold.
+void derive(HotaResult& result) {
+  const auto truths = static_cast<double>(result.truths);
+  const auto tracks = static_cast<double>(result.tracks);
+  HotaResult::Series detre{}, detpr{};
+  for (std::size_t i = 0; i < kHotaThresholds; ++i) {
+    const auto matches = static_cast<double>(result.matches_at[i]);
+    detre[i] = ratio(matches, truths);
+    detpr[i] = ratio(matches, tracks);
+    result.deta_at[i] = ratio(matches, truths + tracks - matches);
+    result.hota_at[i] = std::sqrt(result.deta_at[i] * result.assa_at[i]);
+  }
+  result.hota = mean(result.hota_at);
+  result.deta = mean(result.deta_at);
+  result.assa = mean(result.assa_at);
+  result.loca = mean(result.loca_at);
+  result.detre = mean(detre);
+  result.detpr = mean(detpr);
+  result.assre = mean(result.assre_at);
+  result.asspr = mean(result.asspr_at);
+}
+
 }  // namespace
 
 void Hota::Tally::match(int truth, int track, double similarity_of_pair) {
@@ -107,6 +131,8 @@ void Hota::settle_rivals(Tally& tally) const {
 HotaResult Hota::result() const {
   HotaResult result;
   result.loca_at.fill(1.0);
+  result.truths = truths_;
+  result.tracks = tracks_;
   if (truths_ == 0 || tracks_ == 0) return result;
 
   Tally tally = tally_;
@@ -124,28 +150,41 @@ HotaResult Hota::result() const {
       precision[i] += together * together / track_scans;
     }
   });
-  HotaResult::Series detre{}, detpr{}, assre{}, asspr{};
   for (std::size_t i = 0; i < kHotaThresholds; ++i) {
-    const auto matches = static_cast<double>(tally.matches[i]);
-    const double divisor = std::max(1.0, matches);
-    detre[i] = matches / static_cast<double>(truths_);
-    detpr[i] = matches / static_cast<double>(tracks_);
-    assre[i] = recall[i] / divisor;
-    asspr[i] = precision[i] / divisor;
-    result.deta_at[i] = matches / (static_cast<double>(truths_ + tracks_) - matches);
+    result.matches_at[i] = tally.matches[i];
+    const double divisor = std::max(1.0, static_cast<double>(tally.matches[i]));
+    result.assre_at[i] = recall[i] / divisor;
+    result.asspr_at[i] = precision[i] / divisor;
     result.assa_at[i] = agreement[i] / divisor;
-    result.hota_at[i] = std::sqrt(result.deta_at[i] * result.assa_at[i]);
-    if (matches > 0.0) result.loca_at[i] = tally.similarity[i] / matches;
+    if (tally.matches[i] > 0) result.loca_at[i] = tally.similarity[i] / divisor;
   }
-  result.hota = mean(result.hota_at);
-  result.deta = mean(result.deta_at);
-  result.assa = mean(result.assa_at);
-  result.loca = mean(result.loca_at);
-  result.detre = mean(detre);
-  result.detpr = mean(detpr);
-  result.assre = mean(assre);
-  result.asspr = mean(asspr);
+  derive(result);
   return result;
+}
+
+HotaResult combine(std::span<const HotaResult> results) {
+  HotaResult sum;
+  for (const HotaResult& result : results) {
+    sum.truths += result.truths;
+    sum.tracks += result.tracks;
+    for (std::size_t i = 0; i < kHotaThresholds; ++i) {
+      const auto matches = static_cast<double>(result.matches_at[i]);
+      sum.matches_at[i] += result.matches_at[i];
+      sum.assa_at[i] += matches * result.assa_at[i];
+      sum.assre_at[i] += matches * result.assre_at[i];
+      sum.asspr_at[i] += matches * result.asspr_at[i];
+      sum.loca_at[i] += matches * result.loca_at[i];
+    }
+  }
+  for (std::size_t i = 0; i < kHotaThresholds; ++i) {
+    const double divisor = std::max(1.0, static_cast<double>(sum.matches_at[i]));
+    sum.assa_at[i] /= divisor;
+    sum.assre_at[i] /= divisor;
+    sum.asspr_at[i] /= divisor;
+    sum.loca_at[i] = sum.matches_at[i] > 0 ? sum.loca_at[i] / divisor : 1.0;
+  }
+  derive(sum);
+  return sum;
 }
 
 }  // namespace ghtrack

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/metrics/mot_step.hpp"
@@ -21,8 +22,14 @@ struct HotaResult {
   double assa = 0.0;  // association accuracy
   double loca = 1.0;  // mean similarity of the matches
   double detre = 0.0, detpr = 0.0, assre = 0.0, asspr = 0.0;  // recall and precision of both
-  Series hota_at{}, deta_at{}, assa_at{}, loca_at{};
+  Series hota_at{}, deta_at{}, assa_at{}, loca_at{}, assre_at{}, asspr_at{};
+  std::array<std::int64_t, kHotaThresholds> matches_at{};  // true positives
+  std::int64_t truths = 0, tracks = 0;                     // object-scans and track-scans
 };
+
+/// The result of several sequences together, as in TrackEval: matches, objects and tracks are
+/// added; association and localisation are means weighted by the matches.
+HotaResult combine(std::span<const HotaResult> results);
 
 /// Counts scan by scan. HOTA's pairing in a scan depends on how well two identities fit over the
 /// whole run, which is known only at the end. Where a pair has no rival it is decided at once; the

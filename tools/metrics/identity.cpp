@@ -13,6 +13,15 @@ double ratio(std::int64_t part, std::int64_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
+/// Fills in what follows from the counts.
+void derive(IdentityResult& result) {
+  const std::int64_t tracks = result.true_positives + result.false_positives;
+  const std::int64_t truths = result.true_positives + result.false_negatives;
+  result.idf1 = ratio(2 * result.true_positives, truths + tracks);
+  result.idp = ratio(result.true_positives, tracks);
+  result.idr = ratio(result.true_positives, truths);
+}
+
 }  // namespace
 
 void Identity::add(const MotStep& step) {
@@ -38,10 +47,19 @@ IdentityResult Identity::result() const {
   }
   result.false_positives = track_scans_ - result.true_positives;
   result.false_negatives = truth_scans_ - result.true_positives;
-  result.idf1 = ratio(2 * result.true_positives, truth_scans_ + track_scans_);
-  result.idp = ratio(result.true_positives, track_scans_);
-  result.idr = ratio(result.true_positives, truth_scans_);
+  derive(result);
   return result;
+}
+
+IdentityResult combine(std::span<const IdentityResult> results) {
+  IdentityResult sum;
+  for (const IdentityResult& result : results) {
+    sum.true_positives += result.true_positives;
+    sum.false_positives += result.false_positives;
+    sum.false_negatives += result.false_negatives;
+  }
+  derive(sum);
+  return sum;
 }
 
 }  // namespace ghtrack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/metrics/mot_step.hpp"
@@ -17,6 +18,9 @@ struct IdentityResult {
   double idp = 0.0;
   double idr = 0.0;
 };
+
+/// The result of several sequences together: counts are added.
+IdentityResult combine(std::span<const IdentityResult> results);
 
 class Identity {
  public:

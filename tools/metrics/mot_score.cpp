@@ -4,6 +4,18 @@
 
 namespace ghtrack {
 
+MotResult combine(std::span<const MotResult> results) {
+  std::vector<ClearMotResult> clear;
+  std::vector<IdentityResult> identity;
+  std::vector<HotaResult> hota;
+  for (const MotResult& result : results) {
+    clear.push_back(result.clear);
+    identity.push_back(result.identity);
+    hota.push_back(result.hota);
+  }
+  return {combine(clear), combine(identity), combine(hota), std::nullopt};
+}
+
 const std::vector<int>& MotScore::Numbers::of(std::span<const Id> ids) {
   numbers_.clear();
   for (const Id id : ids) {

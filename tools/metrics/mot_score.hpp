@@ -21,6 +21,9 @@ struct MotResult {
   std::optional<double> ospa2;  // of points [m]; absent for boxes
 };
 
+/// The result of several sequences together, as TrackEval combines them; without OSPA(2).
+MotResult combine(std::span<const MotResult> results);
+
 /// All scores of identity over a run: CLEAR MOT, IDF1, HOTA and OSPA(2).
 class MotScore {
  public:

@@ -59,13 +59,25 @@ struct OfflineConfig {
   }
 };
 
-/// Tracks recorded scans. Instants without a detection are no rows of a file: where scans are
+/// Recorded scans, one after the other.
+struct ScanSource {
+  std::function<bool(Scan&)> next;  // the next scan by time; false after the last
+  double period = 0.0;              // typical time between scans [s]; 0: unknown
+  int sensors = 1;
+};
+
+/// Tracks recorded scans. A detection whose covariance is zero, which is unknown, has the noise that
+/// the configuration says. Instants without a detection are no rows of a file: where scans are
 /// missing, empty ones take their place until no track is left that could miss anything, so that
 /// the length of a gap costs nothing.
-/// @param scans     by time
 /// @param on_scan   gets the tracks after each scan, the empty ones included
 /// @param times     where to add the time of the tracker's stages
 /// @return the tracker's state at the end, with the counts of what was refused
+TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
+                           const std::function<void(const TrackSnapshot&)>& on_scan,
+                           StepTimes* times = nullptr);
+
+/// The same of scans in memory, by time.
 TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> scans,
                            const std::function<void(const TrackSnapshot&)>& on_scan,
                            StepTimes* times = nullptr);

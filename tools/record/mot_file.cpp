@@ -4,22 +4,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <limits>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "tools/record/text_file.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kMostRows = 5'000'000;
 constexpr std::size_t kFewestFields = 6;
 constexpr std::size_t kMostFields = 10;
 constexpr std::size_t kTruthFields = 9;  // of ground truth with categories
-constexpr std::int32_t kPedestrian = 1;
 
 struct NumberedRow {
   MotRow row;
@@ -72,19 +70,25 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, Mot
              .width = values[4],
              .height = values[5]};
   if (fields.size() > kFewestFields) row.confidence = values[6];
-  if (kind == MotKind::kTruth && fields.size() == kTruthFields) {
+  if (kind != MotKind::kDetections && fields.size() == kTruthFields) {
     row.category = static_cast<std::int32_t>(std::clamp(values[7], -1.0, 1e6));
   }
   return row;
 }
 
-bool is_scored(const MotRow& row) {
-  return row.confidence != 0.0 && (row.category == -1 || row.category == kPedestrian);
+/// "frame,id,bb_left,bb_top,…", as some tools put above the rows.
+bool is_header(const std::vector<std::string_view>& fields) {
+  const auto says = [&](std::size_t i, std::string_view word) {
+    return fields[i].find(word) != std::string_view::npos;
+  };
+  return fields.size() >= kFewestFields && says(0, "rame") && (says(2, "eft") || says(2, "x"));
 }
 
-void check_ids(const std::vector<NumberedRow>& rows, Findings& findings) {
-  std::vector<std::size_t> order(rows.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+void check_ids(const std::vector<NumberedRow>& rows, MotKind kind, Findings& findings) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (kind != MotKind::kTruth || rows[i].row.confidence != 0.0) order.push_back(i);
+  }
   const auto key = [&](std::size_t i) { return std::tuple(rows[i].row.frame, rows[i].row.id, i); };
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
   for (std::size_t i = 1; i < order.size(); ++i) {
@@ -107,22 +111,19 @@ std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kin
   std::vector<NumberedRow> rows;
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;
+  bool is_first = true;
   for (auto line = lines.next(); line && !findings.enough(); line = lines.next()) {
     if (line->find_first_not_of(" \t") == std::string_view::npos) continue;
     split_fields(*line, fields, owned);
+    if (std::exchange(is_first, false) && is_header(fields)) continue;
     const auto row = parse_row(fields, kind, last_frame, lines.number(), findings);
-    if (!row || (kind == MotKind::kTruth && !is_scored(*row))) continue;
-    if (rows.size() == kMostRows) {
-      findings.add(lines.number(), "more than 5 000 000 rows");
-      break;
-    }
-    rows.push_back({*row, lines.number()});
+    if (row) rows.push_back({*row, lines.number()});
   }
   findings.throw_if_any();
   std::stable_sort(rows.begin(), rows.end(), [](const NumberedRow& a, const NumberedRow& b) {
     return a.row.frame < b.row.frame;
   });
-  if (kind != MotKind::kDetections) check_ids(rows, findings);
+  if (kind != MotKind::kDetections) check_ids(rows, kind, findings);
   findings.throw_if_any();
 
   std::vector<MotRow> result;
@@ -135,10 +136,17 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::ifstream file(path, std::ios::binary);
-  char first = '\0';
-  file >> first;  // after blanks
-  return file &&
-         (std::isdigit(static_cast<unsigned char>(first)) != 0 || first == '-' || first == '+');
+  std::string line;
+  while (line.find_first_not_of(" \t\r") == std::string::npos) {
+    if (!std::getline(file, line)) return false;
+  }
+  std::string_view text = line;
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  std::vector<std::string_view> fields;
+  std::vector<std::string> owned;
+  split_fields(text, fields, owned);
+  return is_header(fields) || (fields.size() >= kFewestFields && parse_number(fields.front()));
 }
 
 void append_mot_row(std::string& text, const MotRow& row) {

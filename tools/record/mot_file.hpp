@@ -24,8 +24,7 @@ struct MotRow {
 /// What a MOTChallenge file holds, which decides what is allowed in it.
 enum class MotKind {
   kDetections,  // id −1, any confidence, equal ids
-  kTruth,       // no id twice in a frame; rows with confidence 0 are left out, and with 9 columns
-                // those of another category than pedestrian
+  kTruth,       // no id twice in a frame among rows with another confidence than 0
   kResult,      // no id twice in a frame
 };
 
@@ -38,8 +37,9 @@ enum class MotKind {
 std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kind,
                                   std::optional<std::int32_t> last_frame = std::nullopt);
 
-/// Whether a file looks like a MOTChallenge file, which has no header row, and not like a CSV file:
-/// its first line starts with a digit or a sign. An unreadable or empty file does not.
+/// Whether a file looks like a MOTChallenge file and not like a table of points: its first line has
+/// at least six fields, of numbers or of the names `frame,id,…left,…`. An unreadable or empty file
+/// does not.
 bool looks_like_mot_file(const std::filesystem::path& path);
 
 /// Appends `frame,id,left,top,width,height,confidence,-1,-1,-1`. Coordinates have two decimals, as

@@ -5,8 +5,11 @@
 
 namespace ghtrack {
 
-TrackWriter::TrackWriter(std::filesystem::path path) : file_(std::move(path)) {
-  file_.write("t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y\n");
+TrackWriter::TrackWriter(std::filesystem::path path, TrackColumns more)
+    : file_(std::move(path)), more_(std::move(more)) {
+  file_.write("t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y");
+  for (const std::string& name : more_.names) file_.write("," + name);
+  file_.write("\n");
 }
 
 void TrackWriter::add(const TrackSnapshot& snapshot) {
@@ -24,6 +27,7 @@ void TrackWriter::add(const TrackSnapshot& snapshot) {
       ry = track.residual->y();
     }
     pending_ << rx << ry << track.sigma.x() << track.sigma.y();
+    if (more_.append) more_.append(pending_, track);
     pending_.end();
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -11,18 +12,25 @@
 
 namespace ghtrack {
 
+/// Columns of tracks.csv beside its own.
+struct TrackColumns {
+  std::vector<std::string> names;
+  std::function<void(CsvRow&, const TrackEstimate&)> append;  // as many cells
+};
+
 /// Writes tracks.csv:
 /// `t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y`. Of several scans
 /// at one instant the tracks after the last one are written, so that a track has one row per time.
 class TrackWriter {
  public:
-  explicit TrackWriter(std::filesystem::path path);
+  explicit TrackWriter(std::filesystem::path path, TrackColumns more = {});
   void add(const TrackSnapshot& snapshot);
   void commit();
   void keep_partial();
 
  private:
   AtomicFile file_;
+  TrackColumns more_;
   CsvRow pending_;  // the rows of the latest instant
   double time_ = std::numeric_limits<double>::quiet_NaN();
 };

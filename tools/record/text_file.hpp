@@ -14,11 +14,14 @@ class Findings {
  public:
   explicit Findings(std::string file) : file_(std::move(file)) {}
 
-  /// @param line  from 1; 0 if it is about the file as a whole
-  void add(std::int64_t line, std::string_view message);
+  /// @param line    from 1; 0 if it is about the file as a whole
+  /// @param column  in characters, from 1; 0 if it is about the line as a whole
+  void add(std::int64_t line, std::string_view message, std::int64_t column = 0);
 
   /// Reading on would only repeat itself.
   bool enough() const { return lines_.size() >= kMost; }
+
+  const std::vector<std::string>& lines() const { return lines_; }
 
   /// @throws InputError with one line per finding, if there is any
   void throw_if_any() const;
@@ -61,8 +64,13 @@ class Lines {
 void split_fields(std::string_view line, std::vector<std::string_view>& fields,
                   std::vector<std::string>& owned);
 
+/// Whether it is UTF-8 without overlong forms and surrogates, and without control characters other
+/// than tab and line ends.
+bool is_text(std::string_view text);
+
 /// The finite number that makes up the whole text; absent if it is anything else.
-std::optional<double> parse_number(std::string_view text);
+/// @param point  what stands before the decimals: '.' or ','
+std::optional<double> parse_number(std::string_view text, char point = '.');
 
 /// The whole number, in the range of an identity, that makes up the text; 3 and 3.0 are the same.
 std::optional<std::int64_t> parse_whole(std::string_view text);

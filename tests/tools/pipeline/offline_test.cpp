@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/metrics/score.hpp"
-#include "tools/record/csv_reader.hpp"
+#include "tools/metrics/point_scoring.hpp"
+#include "tools/data/scan_reader.hpp"
 
 namespace ghtrack {
 namespace {
@@ -59,7 +59,7 @@ ScoreResult score_of(const char* name, const OfflineConfig& config) {
   });
   ScoreOptions options;
   options.gospa.cutoff = 10.0;
-  return score(read_truth_csv(stem + "_truth.csv"), tracks, options);
+  return score_points(read_truth_csv(stem + "_truth.csv"), tracks, options);
 }
 
 // Recorded: mean GOSPA of Stone Soup's tracker with the same logic, see the README of the folder.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenes/schema/reader.hpp"
-#include "tools/metrics/score.hpp"
+#include "tools/metrics/point_scoring.hpp"
 #include "tools/pipeline/simulation.hpp"
 
 namespace ghtrack {
@@ -39,7 +39,7 @@ Result result_of(const std::string& classify) {
   run(scene, world, listener);
   ScoreOptions options;
   options.gospa.cutoff = 3.0;
-  result.score = score(truth, tracks, options);
+  result.score = score_points(truth, tracks, options);
   return result;
 }
 

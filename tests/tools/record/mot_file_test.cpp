@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include "tests/tools/record/scratch_folder.hpp"
-#include "tools/record/csv_reader.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/text_file.hpp"
@@ -11,7 +10,6 @@
 namespace ghtrack {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// Runs `read` on a file with this content. The message names the file "in.csv" without its folder.
@@ -130,14 +128,13 @@ TEST(MotFile, KeepsMessagesReadable) {
             "in.csv:1: error: this line is longer than 64 KiB");
 }
 
-// Derived: 10 columns: confidence 0 is not scored; 9 columns: nor is another category.
-TEST(MotFile, LeavesOutTruthThatIsNotScored) {
-  EXPECT_EQ(rows_of("1,1,1,2,3,4,1,-1,-1,-1\n1,2,1,2,3,4,0,-1,-1,-1\n", MotKind::kTruth).size(),
-            1U);
+// Derived: 9 columns are ground truth with classes.
+TEST(MotFile, ReadsClassesOfTruth) {
   const auto rows =
       rows_of("1,1,1,2,3,4,1,1,0.5\n1,2,1,2,3,4,1,7,1\n1,3,1,2,3,4,0,1,1\n", MotKind::kTruth);
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].id, 1);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1].category, 7);
+  EXPECT_EQ(rows[2].confidence, 0.0);
 }
 
 // Property: rows beyond the known end of the sequence are errors.
@@ -159,7 +156,12 @@ TEST(MotFile, ReadsWhatItWrites) {
 // Property: the first character tells the formats apart.
 TEST(MotFile, IsToldFromCsvByItsFirstLine) {
   const ScratchFolder folder;
-  EXPECT_TRUE(looks_like_mot_file(folder.write("a", "1,-1,1,2,3,4\n")));
+  for (const char* text : {"1,-1,1,2,3,4\n", "\xef\xbb\xbf" "1,-1,1,2,3,4", "\n1, -1, 1, 2, 3, 4, 1\r\n",
+                           "frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z\n1,-1,1,2,3,4,1\n"}) {
+    EXPECT_TRUE(looks_like_mot_file(folder.write("a", text))) << text;
+    EXPECT_EQ(rows_of(text, MotKind::kDetections).size(), 1U) << text;
+  }
+  EXPECT_FALSE(looks_like_mot_file(folder.write("d", "0.5,1,2\n")));
   EXPECT_FALSE(looks_like_mot_file(folder.write("b", "t,x,y\n1,2,3\n")));
   EXPECT_FALSE(looks_like_mot_file(folder.write("c", "")));
   EXPECT_FALSE(looks_like_mot_file(folder.path()));
@@ -182,57 +184,6 @@ TEST(SequenceInfo, ReadsTheSequenceSection) {
             "in.csv:2: error: seqLength 'many' is not a whole number above 0\n"
             "in.csv:3: error: frameRate '0' is not a number above 0\n"
             "in.csv:4: error: 'odd' is not `key = value`");
-}
-
-// Property: columns are found by name; times are sorted; tentative tracks are left out.
-TEST(CsvReader, FindsColumnsByName) {
-  const ScratchFolder folder;
-  const auto points =
-      read_tracks_csv(folder.write("tracks.csv",
-                                   "y,status,name,track_id,t,x\n2,confirmed,\"a, b\",7,0.2,1\n"
-                                   "4,coasting,c,-3,0.1,3\n9,tentative,c,8,0.1,9\n"));
-  ASSERT_EQ(points.size(), 2U);
-  EXPECT_EQ(points[0].id, -3);
-  EXPECT_EQ(points[0].time, 0.1);
-  EXPECT_EQ(points[0].position, Eigen::Vector2d(3.0, 4.0));
-  EXPECT_EQ(points[1].id, 7);
-  EXPECT_EQ(points[1].position, Eigen::Vector2d(1.0, 2.0));
-}
-
-// Derived: rows with the same time and sensor make one scan.
-TEST(CsvReader, GathersDetectionsIntoScans) {
-  const ScratchFolder folder;
-  const DetectionTable table = read_detections_csv(
-      folder.write("d.csv",
-                   "t,sensor,class,x,y\n0.2,radar,ball,1,2\n0.1,camera,,3,4\n0.2,camera,train,5,6\n"
-                   "0.2,radar,,7,8\n"));
-  EXPECT_THAT(table.sensors, ElementsAre("radar", "camera"));
-  ASSERT_EQ(table.scans.size(), 3U);
-  EXPECT_EQ(table.scans[0].time, 0.1);
-  EXPECT_EQ(table.scans[0].sensor, 1);
-  EXPECT_EQ(table.scans[1].sensor, 0);
-  ASSERT_EQ(table.scans[1].detections.size(), 2U);
-  EXPECT_EQ(table.scans[1].detections[0].label, "ball");
-  EXPECT_EQ(table.scans[1].detections[1].position, Eigen::Vector2d(7.0, 8.0));
-  EXPECT_EQ(table.scans[2].detections[0].label, "train");
-}
-
-// Property: defects of a CSV file are named with line, column and what the file has instead.
-TEST(CsvReader, NamesLineAndColumn) {
-  const auto truth = [](const auto& path) { read_truth_csv(path); };
-  EXPECT_EQ(message_of("t,id,x\n", truth),
-            "in.csv:1: error: column 'truth_id' is missing; the header row has 't', 'id', 'x'\n"
-            "in.csv:1: error: column 'y' is missing; the header row has 't', 'id', 'x'");
-  EXPECT_EQ(message_of("", truth).substr(0, 71),
-            "in.csv:1: error: column 't' is missing; the header row has nothing\nin.c");
-  EXPECT_EQ(message_of("t,truth_id,x,y,x\n", truth), "in.csv:1: error: column 'x' is there twice");
-  EXPECT_EQ(message_of("t,truth_id,x,y\n0,1,abc,2\n0,1.5,1,inf\n0,1\n", truth),
-            "in.csv:2: error: 'abc' in column 'x' is not a finite number\n"
-            "in.csv:3: error: '1.5' in column 'truth_id' is not a whole number\n"
-            "in.csv:3: error: 'inf' in column 'y' is not a finite number\n"
-            "in.csv:4: error: this row has 2 fields; the header row has 4");
-  EXPECT_EQ(message_of("t,truth_id,x,y\n0,1,1,2\n1,1,1,2\n0,1,1,2\n", truth),
-            "in.csv:4: error: id 1 is there twice at the same time; the first is in line 2");
 }
 
 // Property: what is no regular file is refused at once, by name.

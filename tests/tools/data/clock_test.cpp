@@ -1,0 +1,74 @@
+#include "tools/data/clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tools/data/place.hpp"
+
+namespace ghtrack {
+namespace {
+
+// Derived: 2024-06-11T07:30:15 UTC is 19 885 days and 27 015 seconds after the start of 1970.
+TEST(DateTime, MeansTheSameInEveryDialect) {
+  constexpr double kSeconds = 19885.0 * 86400.0 + 7.0 * 3600.0 + 30.0 * 60.0 + 15.0;
+  for (const char* text :
+       {"2024-06-11T07:30:15Z", "2024-06-11 07:30:15", "2024-06-11T09:30:15+02:00",
+        "2024-06-11T02:00:15-0530", "2024/06/11 07:30:15.000", "20240611T073015Z",
+        "2024-06-11T07:30:15,0UTC", "2024-06-11T16:30:15+09"}) {
+    SCOPED_TRACE(text);
+    ASSERT_TRUE(parse_date_time(text).has_value());
+    EXPECT_EQ(*parse_date_time(text), kSeconds);
+  }
+  EXPECT_EQ(parse_date_time("2024-06-11T07:30:15.25Z"), kSeconds + 0.25);
+  EXPECT_EQ(parse_date_time("1970-01-01"), 0.0);
+  EXPECT_EQ(parse_date_time("1969-12-31T23:59:59Z"), -1.0);
+  EXPECT_EQ(parse_date_time("2000-03-01T00:00Z").value() -
+                parse_date_time("2000-02-28T00:00Z").value(),
+            2 * 86400.0);
+}
+
+// Property: what is no date is none.
+TEST(DateTime, RefusesWhatIsNone) {
+  for (const char* text : {"", "2024", "2024-13-01T00:00", "2024-06-11T25:00:00", "2024-06-11T07:61",
+                           "2024-06-11T07:30:15X", "2024-06-11T07:30:15+", "11.06.2024 07:30",
+                           "2024-06/11", "2024-06-11T07:30:15+02:00 ", "2024-06-11T07:30:"}) {
+    EXPECT_FALSE(parse_date_time(text).has_value()) << text;
+  }
+}
+
+double read(const char* unit, const char* time, std::optional<double> rate = {}) {
+  std::optional<Unit> of_column;
+  if (*unit != '\0') of_column = parse_heading("t (" + std::string(unit) + ")").unit;
+  return Clock(of_column, time, '.', rate).seconds(time).value();
+}
+
+// Derived: by the unit, or by a size that no other unit could have.
+TEST(Clock, TurnsEveryUnitIntoSeconds) {
+  EXPECT_EQ(read("ms", "33"), 0.033);
+  EXPECT_EQ(read("us", "1500000"), 1.5);
+  EXPECT_EQ(read("min", "1.5"), 90.0);
+  EXPECT_EQ(read("", "12.5"), 12.5);
+  EXPECT_EQ(read("", "1718091015"), 1718091015.0);
+  EXPECT_EQ(read("", "1718091015250"), 1718091015.25);
+  EXPECT_EQ(read("", "1718091015250000"), 1718091015.25);
+  EXPECT_EQ(read("", "1718091015250000000"), 1718091015.25);
+  EXPECT_EQ(read("", "45", 30.0), 1.5);
+  EXPECT_EQ(read("", "01:02:03.5"), 3723.5);
+}
+
+// Derived: a minute of latitude is a nautical mile of 1852 m to half a percent; the way back ends
+// where it started.
+TEST(Place, TurnsDegreesIntoMetresAndBack) {
+  const GeoPoint origin{.latitude = 37.46, .longitude = 126.43};
+  const Eigen::Vector2d north = to_metres(origin, {37.46 + 1.0 / 60.0, 126.43});
+  EXPECT_NEAR(north.x(), 0.0, 1e-6);
+  EXPECT_NEAR(north.y(), 1852.0, 0.005 * 1852.0);
+  const GeoPoint away{.latitude = 37.9, .longitude = 125.8};
+  const GeoPoint back = to_degrees(origin, to_metres(origin, away));
+  EXPECT_NEAR(back.latitude, away.latitude, 1e-11);
+  EXPECT_NEAR(back.longitude, away.longitude, 1e-11);
+  // Across the line where the date changes, the way is the short one.
+  EXPECT_NEAR(to_metres({0.0, 179.99}, {0.0, -179.99}).x(), 0.02 * 111319.5, 1.0);
+}
+
+}  // namespace
+}  // namespace ghtrack

@@ -1,0 +1,199 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/tools/record/scratch_folder.hpp"
+#include "tools/data/point_reader.hpp"
+#include "tools/data/scan_reader.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// Scans as "t/sensor: x,y x,y; …".
+std::string scans_of(const std::string& content, const ReadOptions& options = {}) {
+  const ScratchFolder folder;
+  ScanReader reader(folder.write("in.csv", content).string(), options);
+  std::string text;
+  for (Scan scan; reader.next(scan);) {
+    char number[64];
+    std::snprintf(number, sizeof number, "%g/%d:", scan.time, scan.sensor);
+    text += number;
+    for (const Detection& detection : scan.detections) {
+      std::snprintf(number, sizeof number, " %g,%g", detection.position.x(),
+                    detection.position.y());
+      text += number;
+    }
+    text += "; ";
+  }
+  return text;
+}
+
+/// The message that names the file "in.csv" without its folder.
+template <class Read>
+std::string message_of(const std::string& content, Read read) {
+  const ScratchFolder folder;
+  const auto path = folder.write("in.csv", content);
+  try {
+    read(path);
+  } catch (const InputError& error) {
+    std::string text = error.what();
+    const std::string prefix = folder.path().string() + "/";
+    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
+      text.erase(at, prefix.size());
+    }
+    return text;
+  }
+  return "accepted";
+}
+
+// Derived: rows with the same time and sensor make one scan; times are sorted.
+TEST(ScanReader, GathersRowsIntoScans) {
+  EXPECT_EQ(scans_of("t,sensor,class,x,y\n0.2,radar,ball,1,2\n0.1,camera,,3,4\n0.2,camera,train,5,6\n"
+                     "0.2,radar,,7,8\n"),
+            "0.1/1: 3,4; 0.2/0: 1,2 7,8; 0.2/1: 5,6; ");
+}
+
+// Derived: a row without a position is a scan that saw nothing.
+TEST(ScanReader, TakesAnEmptyPositionForAMissedDetection) {
+  for (const char* missing : {",", "nan,nan", "NaN,NaN", "NA,NA", " , ", "\"\",\"\"", "null,1"}) {
+    EXPECT_EQ(scans_of("t,x,y\n0,1,2\n1," + std::string(missing) + "\n2,3,4\n"),
+              "0/0: 1,2; 1/0:; 2/0: 3,4; ")
+        << missing;
+  }
+}
+
+// Property: units, formats of time and names of columns change nothing.
+TEST(ScanReader, UnderstandsUnitsAndAliases) {
+  const std::string expected = "0/0: 1,2; 0.5/0: 1.5,2.5; ";
+  EXPECT_EQ(scans_of("t,x,y\n0,1,2\n0.5,1.5,2.5\n"), expected);
+  EXPECT_EQ(scans_of("Time (ms),East [cm],y(mm)\n0,100,2000\n500,150,2500\n"), expected);
+  EXPECT_EQ(scans_of("time_us;pos_x;pos_y\n0;1;2\n500000;1,5;2,5\n"), expected);
+  EXPECT_EQ(scans_of("frame,x,y\n0,1,2\n15,1.5,2.5\n", {.columns = "", .frame_rate = 30.0}),
+            expected);
+  EXPECT_EQ(scans_of("1970-01-01T01:00:00+01:00 1 2\n1970-01-01T00:00:00.5Z 1.5 2.5\n",
+                     {.columns = "t=1,x=2,y=3"}),
+            expected);
+  EXPECT_EQ(scans_of("date,time,x,y\n1970-01-01,00:00:00,1,2\n1970-01-01,00:00:00.5,1.5,2.5\n"),
+            expected);
+}
+
+// Property: any order of the rows gives the same scans, those of one time in the order of the file.
+TEST(ScanReader, SortsStably) {
+  std::vector<std::string> rows;
+  for (int i = 0; i < 500; ++i) {
+    rows.push_back(std::to_string(i / 3) + "," + std::to_string(i) + ",0\n");
+  }
+  std::string sorted = "t,x,y\n";
+  for (const std::string& row : rows) sorted += row;
+  std::mt19937 random(5);
+  std::vector<int> blocks(167);
+  for (int i = 0; i < 167; ++i) blocks[i] = i;
+  std::shuffle(blocks.begin(), blocks.end(), random);
+  std::string shuffled = "t,x,y\n";
+  for (const int block : blocks) {
+    for (int i = 3 * block; i < std::min(500, 3 * block + 3); ++i) shuffled += rows[i];
+  }
+  EXPECT_EQ(scans_of(shuffled), scans_of(sorted));
+}
+
+// Derived: what the file says of its own errors is the covariance; elsewhere it is zero.
+TEST(ScanReader, ReadsErrors) {
+  const ScratchFolder folder;
+  ScanReader reader(folder.write("in.csv", "t,x,y,accuracy\n0,1,2,3\n1,1,2,\n").string());
+  EXPECT_TRUE(reader.summary().has_sigma);
+  Scan scan;
+  ASSERT_TRUE(reader.next(scan));
+  EXPECT_EQ(scan.detections[0].covariance, Eigen::Matrix2d(9.0 * Eigen::Matrix2d::Identity()));
+  ASSERT_TRUE(reader.next(scan));
+  EXPECT_TRUE(scan.detections[0].covariance.isZero(0.0));
+}
+
+// Derived: degrees become metres around the first point.
+TEST(ScanReader, TurnsDegreesIntoMetres) {
+  const ScratchFolder folder;
+  ScanReader reader(
+      folder.write("in.csv", "timestamp,latitude,longitude\n0,50,8\n1,50.001,8\n").string());
+  ASSERT_TRUE(reader.summary().origin.has_value());
+  EXPECT_EQ(reader.summary().origin->latitude, 50.0);
+  Scan scan;
+  reader.next(scan);
+  EXPECT_EQ(scan.detections[0].position, Eigen::Vector2d::Zero());
+  reader.next(scan);
+  EXPECT_NEAR(scan.detections[0].position.y(), 111.2, 0.1);
+  EXPECT_THAT(reader.summary().understood, HasSubstr("2 rows at 2 instants over 1 s (commas)"));
+}
+
+// Property: each defect is reported with its line and column; all are listed.
+TEST(ScanReader, NamesLineAndColumn) {
+  const auto read = [](const auto& path) { ScanReader reader(path.string()); };
+  EXPECT_EQ(message_of("t,x,y\n0,abc,2\n0,1,inf\nx,1,2\n0,1\n", read),
+            "in.csv:2:3: error: 'abc' in column 'x' is not a finite number\n"
+            "in.csv:3:5: error: 'inf' in column 'y' is not a finite number\n"
+            "in.csv:4:1: error: 'x' in column 't' is not a finite number\n"
+            "in.csv:5: error: this row has 2 fields; the header row has 3");
+  EXPECT_EQ(message_of("a,b\n", read),
+            "in.csv:1: error: column 't' is missing; the header row has 'a', 'b'; --columns t=NAME "
+            "says which one it is\n"
+            "in.csv:1: error: column 'x' is missing; the header row has 'a', 'b'; --columns x=NAME "
+            "says which one it is\n"
+            "in.csv:1: error: column 'y' is missing; the header row has 'a', 'b'; --columns y=NAME "
+            "says which one it is");
+  EXPECT_THAT(message_of("", read), StartsWith("in.csv:1: error: column 't' is missing"));
+  EXPECT_THAT(message_of("frame,x,y\n0,1,2\n", read), HasSubstr("--frame-rate"));
+  EXPECT_EQ(message_of("t,x,y,x\n0,1,2,3\n", read), "in.csv:1: error: column 'x' is there twice");
+  EXPECT_THAT(message_of("t,lat,lon\n0,91,5\n", read), HasSubstr("no point of the earth"));
+}
+
+// Derived: two of four rows are left out, and said.
+TEST(ScanReader, LeavesOutBadRowsIfAskedTo) {
+  const ScratchFolder folder;
+  ScanReader reader(folder.write("in.csv", "t,x,y\n0,1,2\n1,oops,2\n2,3\n3,3,4\n").string(),
+                    {.columns = "", .skip_bad_rows = true});
+  EXPECT_EQ(reader.summary().left_out, 2);
+  EXPECT_EQ(reader.summary().rows, 2);
+  ASSERT_EQ(reader.summary().remarks.size(), 2U);
+  EXPECT_THAT(reader.summary().remarks[0], HasSubstr(":3:3: error: 'oops'"));
+}
+
+// Property: columns are found by name; times are sorted; tentative tracks are left out.
+TEST(PointReader, FindsColumnsByName) {
+  const ScratchFolder folder;
+  const auto points = read_tracks_csv(
+      folder.write("tracks.csv",
+                   "y,status,name,track_id,t,x\n2,confirmed,\"a, b\",7,0.2,1\n"
+                   "4,coasting,c,-3,0.1,3\n9,tentative,c,8,0.1,9\n"));
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0].id, -3);
+  EXPECT_EQ(points[0].position, Eigen::Vector2d(3.0, 4.0));
+  EXPECT_EQ(points[1].id, 7);
+}
+
+// Derived: identities that are words are numbered, and keep their names.
+TEST(PointReader, TakesWordsForIdentities) {
+  const ScratchFolder folder;
+  PointReader reader(
+      folder.write("in.csv", "time,icao24,x,y\n0,a1b2,1,2\n0,3c4d,3,4\n1,a1b2,5,6\n").string(),
+      PointKind::kTruth);
+  EXPECT_EQ(reader.next().size(), 2U);
+  EXPECT_EQ(reader.name_of(2), "3c4d");
+  EXPECT_EQ(reader.next().at(0).id, 1);
+}
+
+// Property: defects of identities are named.
+TEST(PointReader, NamesDefectsOfIdentities) {
+  const auto truth = [](const auto& path) { read_truth_csv(path); };
+  EXPECT_EQ(message_of("t,truth_id,x,y\n0,1,1,2\n0,1.5,1,2\n", truth),
+            "in.csv:3:3: error: '1.5' in column 'truth_id' is not a whole number");
+  EXPECT_EQ(message_of("t,truth_id,x,y\n0,1,1,2\n1,1,1,2\n0,1,1,2\n", truth),
+            "in.csv:4: error: id 1 is there twice at the same time; the first is in line 2");
+}
+
+}  // namespace
+}  // namespace ghtrack

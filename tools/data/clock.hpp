@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tools/data/header.hpp"
+
+namespace ghtrack {
+
+/// Seconds since 1970-01-01T00:00:00 UTC of a date and time after ISO 8601:
+/// `2024-06-11T09:30:15.25+02:00`. T may be a blank, dashes may be slashes or missing in both parts,
+/// seconds may be missing, decimals may follow a comma, a zone may be Z, UTC, ±hh, ±hhmm or ±hh:mm;
+/// without one it is UTC. Absent if the text is anything else.
+std::optional<double> parse_date_time(std::string_view text);
+
+/// Seconds since midnight of `hh:mm[:ss[.fff]]`. Absent if the text is anything else.
+std::optional<double> parse_time_of_day(std::string_view text);
+
+/// Days since 1970-01-01 of `yyyy-mm-dd`, with dashes, slashes or nothing. Absent if it is anything
+/// else.
+std::optional<std::int64_t> parse_date(std::string_view text);
+
+/// The way back: `2024-06-11T07:30:15.250Z`, to the millisecond.
+std::string format_date_time(double seconds);
+
+/// Turns the time of a row into seconds, in the way that the first row shows.
+class Clock {
+ public:
+  /// @param unit        of the column, if its heading has one
+  /// @param first       the first time of the table
+  /// @param point       before decimals
+  /// @param frame_rate  of a column of frame numbers [Hz]
+  Clock(const std::optional<Unit>& unit, std::string_view first, char point,
+        std::optional<double> frame_rate);
+
+  /// The time in seconds, absent if the text is none.
+  std::optional<double> seconds(std::string_view time) const;
+
+  /// The same of a time of day on a date.
+  std::optional<double> seconds(std::string_view date, std::string_view time) const;
+
+  /// What a time is, for remarks: "ms", "s since 1970", "ISO 8601".
+  const std::string& meaning() const { return meaning_; }
+
+  /// What a wrong time should have been, for messages.
+  std::string_view expectation() const;
+
+ private:
+  enum class Kind { kNumber, kDateTime, kTimeOfDay };
+
+  Kind kind_ = Kind::kNumber;
+  double multiplier_ = 1.0;
+  double divisor_ = 1.0;  // of the two one is 1, so that 33 ms are 0.033 s to the last digit
+  char point_ = '.';
+  std::string meaning_;
+};
+
+}  // namespace ghtrack

@@ -1,0 +1,140 @@
+#include "tools/data/fix_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tools/record/errors.hpp"
+
+namespace ghtrack {
+namespace {
+
+double scale_of(const Table& table, std::size_t column) {
+  const auto& unit = table.headings()[column].unit;
+  return unit && !unit->is_time ? unit->scale : 1.0;
+}
+
+std::string unit_of(const Table& table, std::size_t column) {
+  const auto& unit = table.headings()[column].unit;
+  return unit ? unit->name : "m";
+}
+
+}  // namespace
+
+FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<GeoPoint> origin)
+    : origin_(origin) {
+  const ColumnMap& columns = table.columns();
+  const auto frame = columns.find(Role::kFrame);
+  const bool time_is_chosen = ("," + options.columns).find(",t=") != std::string::npos;
+  frames_ = frame && !time_is_chosen && (options.frame_rate || !columns.has(Role::kTime));
+  if (frames_ && !options.frame_rate) {
+    const std::string name = table.headings()[*frame].text;
+    throw InputError(fmt::format(
+        "{}:1: error: there is no column 't', and '{}' counts images; --frame-rate F says how many "
+        "there are in a second",
+        table.name(), name));
+  }
+  time_ = frames_ ? *frame : table.required(Role::kTime);
+  date_ = columns.find(Role::kDate);
+  geographic_ = columns.has(Role::kLatitude) && columns.has(Role::kLongitude) &&
+                !(columns.has(Role::kX) && columns.has(Role::kY));
+  x_ = table.required(geographic_ ? Role::kLongitude : Role::kX);
+  y_ = table.required(geographic_ ? Role::kLatitude : Role::kY);
+  table.throw_missing_columns();
+  if (!geographic_) {
+    origin_.reset();
+    x_scale_ = scale_of(table, x_);
+    y_scale_ = scale_of(table, y_);
+  }
+  const auto both = columns.find(Role::kSigma);
+  sigma_x_ = columns.has(Role::kSigmaX) ? columns.find(Role::kSigmaX) : both;
+  sigma_y_ = columns.has(Role::kSigmaY) ? columns.find(Role::kSigmaY) : both;
+  if (has_sigma()) {
+    // An error without a unit of its own is in that of the position.
+    const auto& x_unit = table.headings()[*sigma_x_].unit;
+    const auto& y_unit = table.headings()[*sigma_y_].unit;
+    sigma_x_scale_ = x_unit ? x_unit->scale : x_scale_;
+    sigma_y_scale_ = y_unit ? y_unit->scale : y_scale_;
+  }
+  clock_.emplace(table.headings()[time_].unit, table.first_cell(time_), table.dialect().point,
+                 frames_ || time_is_chosen ? options.frame_rate : std::nullopt);
+}
+
+std::optional<double> FixColumns::read_time(Table& table) {
+  const auto time = date_ && *date_ != time_
+                        ? clock_->seconds(table.cell(*date_), table.cell(time_))
+                        : clock_->seconds(table.cell(time_));
+  if (!time) table.reject_cell(time_, std::string(clock_->expectation()));
+  return time;
+}
+
+std::optional<Fix> FixColumns::read(Table& table) {
+  const auto time = read_time(table);
+  if (!time) return std::nullopt;
+  Fix fix{.time = *time, .position = std::nullopt};
+  const auto x = table.number(x_);
+  const auto y = table.number(y_);
+  if (!x || !y) {
+    const bool x_missing = is_missing(table.cell(x_));
+    const bool y_missing = is_missing(table.cell(y_));
+    if (!x && !x_missing) table.reject_cell(x_, "a finite number");
+    if (!y && !y_missing) table.reject_cell(y_, "a finite number");
+    if ((!x && !x_missing) || (!y && !y_missing)) return std::nullopt;
+    return fix;
+  }
+  if (!geographic_) {
+    fix.position = Eigen::Vector2d(*x * x_scale_, *y * y_scale_);
+    return fix;
+  }
+  const GeoPoint point{.latitude = *y, .longitude = *x};
+  if (!is_on_earth(point)) {
+    table.reject(fmt::format("latitude {} and longitude {} are no point of the earth", *y, *x));
+    return std::nullopt;
+  }
+  if (!origin_) origin_ = point;
+  fix.position = to_metres(*origin_, point);
+  return fix;
+}
+
+std::optional<Eigen::Vector2d> FixColumns::sigma(const Table& table) const {
+  if (!has_sigma()) return std::nullopt;
+  const auto x = table.number(*sigma_x_);
+  const auto y = table.number(*sigma_y_);
+  if (!x || !y || !(*x > 0.0) || !(*y > 0.0)) return std::nullopt;
+  return Eigen::Vector2d(*x * sigma_x_scale_, *y * sigma_y_scale_);
+}
+
+std::string FixColumns::describe(const Table& table) const {
+  const auto name = [&](std::size_t column) {
+    return table.has_header() ? in_quotes(table.headings()[column].text)
+                              : "column " + table.headings()[column].text;
+  };
+  std::string text = fmt::format("t ({}) from {}", clock_->meaning(), name(time_));
+  if (date_ && *date_ != time_) text += " on " + name(*date_);
+  if (geographic_) {
+    text += fmt::format(", x and y in m from degrees in {} and {}", name(x_), name(y_));
+    if (origin_) {
+      text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin_->latitude,
+                          origin_->longitude);
+    }
+  } else {
+    const std::string unit = unit_of(table, x_);
+    const bool alike = unit == unit_of(table, y_);
+    text += fmt::format(", x and y ({}{}) from {} and {}", unit,
+                        alike ? "" : ", " + unit_of(table, y_), name(x_), name(y_));
+  }
+  if (has_sigma()) text += ", sigma from " + name(*sigma_x_);
+  return text;
+}
+
+std::optional<GeoPoint> origin_in_columns(const Table& table) {
+  const auto latitude = table.column("origin_lat");
+  const auto longitude = table.column("origin_lon");
+  if (!latitude || !longitude) return std::nullopt;
+  const auto lat = parse_number(table.first_cell(*latitude), table.dialect().point);
+  const auto lon = parse_number(table.first_cell(*longitude), table.dialect().point);
+  if (!lat || !lon) return std::nullopt;
+  return GeoPoint{.latitude = *lat, .longitude = *lon};
+}
+
+}  // namespace ghtrack

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/data/place.hpp"
+
+namespace ghtrack {
+
+/// Files of points that are no tables: GPX 1.1 tracks (.gpx) and GeoJSON (.geojson, .json).
+///
+/// @return the same as CSV with the columns time, lat, lon and track_id; absent if the name says
+/// that the file is a table
+/// @throws InputError
+std::optional<std::string> points_as_csv(const std::string& path);
+
+/// A point of a track, for files that hold track after track.
+struct TrackPoint {
+  double time = 0.0;  // [s]
+  GeoPoint place;
+};
+
+struct GeoTrack {
+  std::int64_t id = 0;
+  std::vector<TrackPoint> points;
+};
+
+/// Whether tracks can be written under that name: .gpx or .geojson.
+bool is_geographic_file(const std::string& path);
+
+/// The text of such a file. Times are seconds since 1970; GPX has them as dates, GeoJSON as the
+/// property `times` of each track.
+std::string as_geographic_file(const std::string& path, const std::vector<GeoTrack>& tracks);
+
+}  // namespace ghtrack

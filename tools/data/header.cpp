@@ -1,0 +1,285 @@
+#include "tools/data/header.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+
+#include "scenes/schema/diagnostic.hpp"
+#include "tools/record/text_file.hpp"
+
+namespace ghtrack {
+namespace {
+
+struct RoleName {
+  Role role;
+  std::string_view name;
+};
+constexpr std::array<RoleName, 20> kRoles = {{{Role::kTime, "t"},
+                                              {Role::kDate, "date"},
+                                              {Role::kFrame, "frame"},
+                                              {Role::kX, "x"},
+                                              {Role::kY, "y"},
+                                              {Role::kZ, "z"},
+                                              {Role::kLatitude, "lat"},
+                                              {Role::kLongitude, "lon"},
+                                              {Role::kIdentity, "id"},
+                                              {Role::kSensor, "sensor"},
+                                              {Role::kClass, "class"},
+                                              {Role::kSigma, "sigma"},
+                                              {Role::kSigmaX, "sigma_x"},
+                                              {Role::kSigmaY, "sigma_y"},
+                                              {Role::kStatus, "status"},
+                                              {Role::kLeft, "left"},
+                                              {Role::kTop, "top"},
+                                              {Role::kWidth, "width"},
+                                              {Role::kHeight, "height"},
+                                              {Role::kConfidence, "conf"}}};
+
+/// Other names of the roles, the likelier ones first.
+struct Alias {
+  Role role;
+  std::string_view names;  // separated by blanks
+};
+constexpr std::array<Alias, 20> kAliases = {{
+    {Role::kTime,
+     "t time timestamp time_stamp datetime date_time date/time basedatetime base_date_time utc "
+     "time_utc utc_time gps_time gpstime unix_time unixtime epoch posixtime time_position elapsed "
+     "elapsed_time seconds sec ts zeit temps tiempo t_s"},
+    {Role::kDate, "date day"},
+    {Role::kFrame,
+     "frame frame_number frame_no frame_id frame_index frame_idx framenumber image image_id "
+     "img_id"},
+    {Role::kX,
+     "x x_pos xpos pos_x posx position_x x_position px point_x x_coord coord_x east easting "
+     "utm_x utm_east x_east cx center_x centre_x x_center x_centre xc mass_a_x u"},
+    {Role::kY,
+     "y y_pos ypos pos_y posy position_y y_position py point_y y_coord coord_y north northing "
+     "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc mass_a_y v"},
+    {Role::kZ, "z value measurement measured reading position pos distance range height altitude "
+               "data signal x"},
+    {Role::kLatitude, "lat latitude lat_deg latitude_deg gps_lat location_lat breite"},
+    {Role::kLongitude,
+     "lon long lng longitude lon_deg longitude_deg gps_lon gps_long location_long "
+     "location_lon laenge"},
+    {Role::kIdentity,
+     "id truth_id track_id object_id target_id trackid objectid mmsi icao24 icao hex vehicle_id "
+     "name"},
+    {Role::kSensor, "sensor sensor_id sensor_name sensorid source radar camera station receiver"},
+    {Role::kClass, "class label category class_name object_class object_type type"},
+    {Role::kSigma,
+     "sigma std stddev std_dev accuracy horizontal_accuracy accuracy_horizontal h_accuracy hacc "
+     "uncertainty sigma_pos position_error"},
+    {Role::kSigmaX, "sigma_x std_x sigma_east x_std x_sigma sx"},
+    {Role::kSigmaY, "sigma_y std_y sigma_north y_std y_sigma sy"},
+    {Role::kStatus, "status"},
+    {Role::kLeft, "left bb_left bbox_left x1 xmin x_min"},
+    {Role::kTop, "top bb_top bbox_top y1 ymin y_min"},
+    {Role::kWidth, "width bb_width bbox_width w"},
+    {Role::kHeight, "height bb_height bbox_height h"},
+    {Role::kConfidence, "conf confidence score probability"},
+}};
+
+struct UnitName {
+  std::string_view names;  // separated by blanks
+  double scale;
+  bool is_time;
+};
+constexpr std::array<UnitName, 15> kUnits = {{
+    {"s sec secs second seconds", 1.0, true},
+    {"ms msec millisecond milliseconds", 1e-3, true},
+    {"us µs μs usec microsecond microseconds", 1e-6, true},
+    {"ns nsec nanosecond nanoseconds", 1e-9, true},
+    {"min minute minutes", 60.0, true},
+    {"h hr hour hours", 3600.0, true},
+    {"m meter meters metre metres", 1.0, false},
+    {"mm millimeter millimeters millimetre millimetres", 1e-3, false},
+    {"cm centimeter centimeters centimetre centimetres", 1e-2, false},
+    {"km kilometer kilometers kilometre kilometres", 1e3, false},
+    {"ft foot feet", 0.3048, false},
+    {"in inch inches", 0.0254, false},
+    {"nmi", 1852.0, false},
+    {"px pixel pixels pix", 1.0, false},
+    {"deg ° degree degrees", 1.0, false},
+}};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\"'";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// Calls visit(word) for the words of a list until it returns true. @returns whether one did
+template <class Visit>
+bool any_word(std::string_view words, Visit visit) {
+  while (!words.empty()) {
+    const std::size_t end = words.find(' ');
+    if (visit(words.substr(0, end))) return true;
+    if (end == std::string_view::npos) break;
+    words.remove_prefix(end + 1);
+  }
+  return false;
+}
+
+std::optional<Unit> unit_named(std::string_view text) {
+  const std::string name = lower(trimmed(text));
+  for (const UnitName& unit : kUnits) {
+    if (any_word(unit.names, [&](std::string_view word) { return word == name; })) {
+      return Unit{name, unit.scale, unit.is_time};
+    }
+  }
+  return std::nullopt;
+}
+
+/// "Pos X " → "pos_x"
+std::string base_of(std::string_view text) {
+  std::string result;
+  for (const char c : lower(trimmed(text))) {
+    const bool joins = c == ' ' || c == '-' || c == '.' || c == '_';
+    if (!joins) {
+      result += c;
+    } else if (!result.empty() && result.back() != '_') {
+      result += '_';
+    }
+  }
+  while (result.ends_with('_')) result.pop_back();
+  return result;
+}
+
+bool is_alias(std::string_view base) {
+  return std::any_of(kAliases.begin(), kAliases.end(), [&](const Alias& alias) {
+    return any_word(alias.names, [&](std::string_view name) { return name == base; });
+  });
+}
+
+/// Splits "y(mm)", "Time [ms]", "x / m", "t in s" into name and unit.
+bool split_unit(std::string_view text, Heading& heading) {
+  for (const auto& [open, close] : {std::pair{'(', ')'}, std::pair{'[', ']'}}) {
+    const std::size_t at = text.rfind(open);
+    if (at == std::string_view::npos || text.back() != close) continue;
+    heading.unit = unit_named(text.substr(at + 1, text.size() - at - 2));
+    heading.base = base_of(text.substr(0, at));
+    return true;
+  }
+  for (const std::string_view joint : {" in ", " / ", "/"}) {
+    const std::size_t at = text.rfind(joint);
+    if (at == std::string_view::npos) continue;
+    heading.unit = unit_named(text.substr(at + joint.size()));
+    if (!heading.unit) continue;
+    heading.base = base_of(text.substr(0, at));
+    return true;
+  }
+  return false;
+}
+
+std::optional<std::size_t> column_named(std::string_view name,
+                                        const std::vector<Heading>& headings) {
+  const auto find = [&](auto matches) -> std::optional<std::size_t> {
+    const auto found = std::find_if(headings.begin(), headings.end(), matches);
+    if (found == headings.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - headings.begin());
+  };
+  if (const auto exact = find([&](const Heading& h) { return h.text == name; })) return exact;
+  const std::string base = base_of(name);
+  if (const auto alike =
+          find([&](const Heading& h) { return lower(h.text) == lower(name) || h.base == base; })) {
+    return alike;
+  }
+  const auto number = parse_whole(name);
+  if (number && *number >= 1 && *number <= std::ssize(headings)) {
+    return static_cast<std::size_t>(*number - 1);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view to_string(Role role) {
+  const auto found =
+      std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleName& r) { return r.role == role; });
+  return found == kRoles.end() ? std::string_view{} : found->name;
+}
+
+Heading parse_heading(std::string_view cell) {
+  const std::string_view text = trimmed(cell);
+  Heading heading{.text = std::string(text), .base = base_of(text), .unit = std::nullopt};
+  if (text.empty() || split_unit(text, heading) || is_alias(heading.base)) return heading;
+  const std::size_t joint = heading.base.rfind('_');  // time_ms, x_mm
+  if (joint == std::string::npos || joint == 0) return heading;
+  const std::string stem = heading.base.substr(0, joint);
+  if (auto unit = unit_named(heading.base.substr(joint + 1)); unit && is_alias(stem)) {
+    heading.unit = std::move(unit);
+    heading.base = stem;
+  }
+  return heading;
+}
+
+std::vector<ColumnChoice> parse_column_choices(std::string_view text) {
+  std::vector<ColumnChoice> choices;
+  while (!text.empty()) {
+    const std::size_t end = text.find(',');
+    const std::string_view item = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const std::size_t equals = item.find('=');
+    const std::string name = lower(trimmed(item.substr(0, equals)));
+    const auto role = std::find_if(kRoles.begin(), kRoles.end(),
+                                   [&](const RoleName& r) { return r.name == name; });
+    if (equals == std::string_view::npos || role == kRoles.end()) {
+      std::vector<std::string_view> names;
+      for (const RoleName& known : kRoles) names.push_back(known.name);
+      throw ColumnError(
+          fmt::format("--columns: {} is not NAME=COLUMN{}", in_quotes(item),
+                      role == kRoles.end() ? hint(name, "names", names) : std::string()));
+    }
+    choices.push_back({role->role, std::string(trimmed(item.substr(equals + 1)))});
+  }
+  return choices;
+}
+
+ColumnMap::ColumnMap(const std::vector<Heading>& headings,
+                     const std::vector<ColumnChoice>& choices) {
+  for (const ColumnChoice& choice : choices) {
+    const auto column = column_named(choice.column, headings);
+    if (!column) {
+      std::vector<std::string_view> names;
+      for (const Heading& heading : headings) names.push_back(heading.text);
+      throw ColumnError(fmt::format("--columns {}: there is no column {}{}", to_string(choice.role),
+                                    in_quotes(choice.column),
+                                    hint(choice.column, "columns", names)));
+    }
+    columns_.emplace_back(choice.role, *column);
+  }
+  for (const Alias& alias : kAliases) {
+    if (has(alias.role)) continue;
+    any_word(alias.names, [&](std::string_view name) {
+      for (std::size_t i = 0; i < headings.size(); ++i) {
+        if (headings[i].base != name) continue;
+        for (std::size_t j = i + 1; j < headings.size(); ++j) {
+          if (headings[j].text != headings[i].text) continue;
+          throw ColumnError(fmt::format("column {} is there twice", in_quotes(headings[i].text)));
+        }
+        columns_.emplace_back(alias.role, i);
+        return true;
+      }
+      return false;
+    });
+  }
+}
+
+std::optional<std::size_t> ColumnMap::find(Role role) const {
+  const auto found = std::find_if(columns_.begin(), columns_.end(),
+                                  [&](const auto& column) { return column.first == role; });
+  if (found == columns_.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace ghtrack

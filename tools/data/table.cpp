@@ -1,0 +1,225 @@
+#include "tools/data/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/data/clock.hpp"
+#include "tools/data/formats.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr std::size_t kSampleOfFile = 32;  // lines
+constexpr std::size_t kSampleOfPipe = 2;   // so that live data are not held up
+
+bool is_blank(std::string_view line) {
+  return line.find_first_not_of(" \t") == std::string_view::npos;
+}
+
+bool is_comment(std::string_view line) {
+  const std::size_t start = line.find_first_not_of(" \t");
+  if (start == std::string_view::npos) return false;
+  line.remove_prefix(start);
+  return line.front() == '#' || line.front() == '%' || line.starts_with("//");
+}
+
+std::string_view without_comment_sign(std::string_view line) {
+  const std::size_t start = line.find_first_not_of(" \t#%/");
+  return start == std::string_view::npos ? std::string_view{} : line.substr(start);
+}
+
+bool is_value(std::string_view cell, char point) {
+  return parse_number(cell, point) || parse_date_time(cell) || parse_time_of_day(cell);
+}
+
+std::int64_t characters(std::string_view text) {
+  return std::count_if(text.begin(), text.end(),
+                       [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
+}
+
+TextInput open_input(const std::string& path, const std::function<void()>& pause) {
+  if (auto text = points_as_csv(path)) return TextInput(path, *std::move(text));
+  return TextInput(path, pause);
+}
+
+}  // namespace
+
+Table::Table(const std::string& path, const ReadOptions& options)
+    : options_(options),
+      input_(open_input(path, options.pause)),
+      findings_(input_.name()),
+      columns_({}, {}) {
+  take_sample();
+  try {
+    columns_ = ColumnMap(headings_, parse_column_choices(options_.columns));
+  } catch (const ColumnError& error) {
+    findings_.add(sample_.empty() ? 0 : sample_.front().number, error.what());
+    findings_.throw_if_any();
+  }
+}
+
+void Table::take_sample() {
+  const std::size_t most = input_.can_rewind() ? kSampleOfFile : kSampleOfPipe;
+  std::string last_comment;
+  while (sample_.size() < most) {
+    const auto line = input_.next();
+    if (!line) break;
+    if (is_comment(*line)) {
+      if (sample_.empty()) last_comment = *line;
+    } else if (!is_blank(*line) || !sample_.empty()) {
+      sample_.push_back({std::string(*line), input_.line_number()});
+    }
+  }
+  std::vector<std::string> lines;
+  for (const SampleLine& line : sample_) lines.push_back(line.text);
+  dialect_ = recognise_dialect(lines);
+  find_header(last_comment);
+  if (first_row_ < sample_.size()) {
+    split_cells(sample_[first_row_].text, dialect_.separator, cells_, owned_);
+    first_cells_.assign(cells_.begin(), cells_.end());
+    // The second row will do where a first measurement is missing.
+    first_cells_.resize(std::max(first_cells_.size(), headings_.size()));
+  }
+  at_ = first_row_;
+}
+
+void Table::find_header(const std::string& last_comment) {
+  if (sample_.empty()) return;
+  split_cells(sample_.front().text, dialect_.separator, cells_, owned_);
+  has_header_ = !is_value(cells_.front(), dialect_.point);
+  if (has_header_) {
+    for (const std::string_view cell : cells_) headings_.push_back(parse_heading(cell));
+    first_row_ = 1;
+    if (take_units_row()) first_row_ = 2;
+    return;
+  }
+  const std::size_t count = cells_.size();
+  split_cells(without_comment_sign(last_comment), dialect_.separator, cells_, owned_);
+  if (count > 1 && cells_.size() == count) {
+    for (const std::string_view cell : cells_) headings_.push_back(parse_heading(cell));
+    const ColumnMap map(headings_, {});
+    has_header_ = map.has(Role::kTime) || map.has(Role::kFrame) || map.has(Role::kX);
+    if (has_header_) return;
+    headings_.clear();
+  }
+  if (count == 1) {
+    headings_.push_back(parse_heading("z"));
+    return;
+  }
+  for (std::size_t i = 1; i <= count; ++i) {
+    headings_.push_back({.text = std::to_string(i), .base = "", .unit = std::nullopt});
+  }
+}
+
+/// Takes the second row for the units of the columns if it holds nothing but units.
+bool Table::take_units_row() {
+  if (sample_.size() < 2) return false;
+  std::vector<std::string_view> units;
+  split_cells(sample_[1].text, dialect_.separator, units, owned_);
+  if (units.size() != headings_.size()) return false;
+  std::vector<Heading> with_units = headings_;
+  bool any = false;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (units[i].empty()) continue;
+    const bool bracketed = units[i].front() == '(' || units[i].front() == '[';
+    const Heading heading =
+        parse_heading("x " + (bracketed ? std::string(units[i]) : fmt::format("({})", units[i])));
+    if (!heading.unit) return false;
+    with_units[i].unit = heading.unit;
+    any = true;
+  }
+  if (any) headings_ = std::move(with_units);
+  return any;
+}
+
+std::optional<std::size_t> Table::column(std::string_view name) const {
+  const auto found = std::find_if(headings_.begin(), headings_.end(),
+                                  [&](const Heading& heading) { return heading.text == name; });
+  if (found == headings_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - headings_.begin());
+}
+
+std::size_t Table::required(Role role) {
+  if (const auto found = columns_.find(role)) return *found;
+  std::string known;
+  for (const Heading& heading : headings_) {
+    if (known.size() < 200) known += (known.empty() ? "" : ", ") + in_quotes(heading.text);
+  }
+  const std::int64_t line = sample_.empty() ? 1 : sample_.front().number;
+  if (!has_header_ && !headings_.empty()) {
+    findings_.add(line, fmt::format("there is no header row; name the columns by their numbers, "
+                                    "such as --columns t=1,x=2,y=3 ({} is missing)",
+                                    to_string(role)));
+    return 0;
+  }
+  findings_.add(line, fmt::format("column '{}' is missing; the header row has {}; --columns "
+                                  "{}=NAME says which one it is",
+                                  to_string(role), known.empty() ? "nothing" : known,
+                                  to_string(role)));
+  return 0;
+}
+
+std::string_view Table::first_cell(std::size_t column) const {
+  return column < first_cells_.size() ? std::string_view(first_cells_[column])
+                                      : std::string_view{};
+}
+
+std::optional<std::string_view> Table::next_line() {
+  if (at_ < sample_.size()) {
+    line_number_ = sample_[at_].number;
+    return sample_[at_++].text;
+  }
+  const auto line = input_.next();
+  line_number_ = input_.line_number();
+  return line;
+}
+
+bool Table::next() {
+  while (options_.skip_bad_rows || !findings_.enough()) {
+    const auto line = next_line();
+    if (!line) return false;
+    if (line->empty() ? headings_.size() != 1 : (is_blank(*line) || is_comment(*line))) continue;
+    line_ = *line;
+    split_cells(line_, dialect_.separator, cells_, owned_);
+    while (cells_.size() > headings_.size() && cells_.back().empty()) cells_.pop_back();
+    if (cells_.size() == headings_.size()) return true;
+    reject(fmt::format("this row has {} fields; the {} row has {}", cells_.size(),
+                       has_header_ ? "header" : "first", headings_.size()));
+  }
+  return false;
+}
+
+void Table::reject_cell(std::size_t column, const std::string& expectation) {
+  const std::string_view cell = cells_[column];
+  std::int64_t at = 0;
+  if (cell.data() >= line_.data() && cell.data() <= line_.data() + line_.size()) {
+    at = 1 + characters({line_.data(), static_cast<std::size_t>(cell.data() - line_.data())});
+  }
+  reject_at(line_number_, at,
+            fmt::format("{} in column {} is not {}", in_quotes(cell),
+                        in_quotes(headings_[column].text), expectation));
+}
+
+void Table::reject_at(std::int64_t line, std::int64_t column, const std::string& message) {
+  ++rejected_;
+  findings_.add(line, message, column);
+}
+
+void Table::throw_findings() const {
+  if (!options_.skip_bad_rows) findings_.throw_if_any();
+}
+
+void Table::rewind() {
+  input_.rewind();
+  for (std::int64_t skipped = 0, last = sample_.empty() ? 0 : sample_.back().number;
+       skipped < last; ++skipped) {
+    input_.next();
+  }
+  at_ = first_row_;
+  findings_ = Findings(input_.name());
+  rejected_ = 0;
+}
+
+}  // namespace ghtrack

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/data/dialect.hpp"
+#include "tools/data/header.hpp"
+#include "tools/data/text_input.hpp"
+#include "tools/record/text_file.hpp"
+
+namespace ghtrack {
+
+/// How somebody else's file is to be read.
+struct ReadOptions {
+  std::string columns = {};                          // t=NAME,x=NAME,…; empty: by their names
+  std::optional<double> frame_rate = std::nullopt;   // of a column of frame numbers [Hz]
+  bool skip_bad_rows = false;                        // leave them out instead of refusing the file
+  std::function<void()> pause = {};                  // called between blocks; may throw
+};
+
+/// A table of text, row by row in constant memory: CSV and its kin, with a header row, a header in
+/// the last comment line, or none. Empty lines and those that start with #, % or // are passed over.
+///
+/// What is wrong with rows is gathered: throw_findings() refuses the file with all of it, unless
+/// bad rows are to be left out.
+class Table {
+ public:
+  /// @param path  of a file or pipe, or "-"; also of a format that points_as_csv() turns into one
+  /// @throws InputError if it cannot be read, or chosen columns are not there
+  explicit Table(const std::string& path, const ReadOptions& options = {});
+
+  const std::string& name() const { return input_.name(); }
+  const Dialect& dialect() const { return dialect_; }
+
+  /// One per column. Without a header row they are called "1", "2", …, and a single one "z".
+  const std::vector<Heading>& headings() const { return headings_; }
+  bool has_header() const { return has_header_; }
+  const ColumnMap& columns() const { return columns_; }
+
+  /// The column of exactly this name.
+  std::optional<std::size_t> column(std::string_view name) const;
+
+  /// The column of a role that must be there. A missing one is a finding.
+  std::size_t required(Role role);
+
+  /// The first row of data as text, empty if there is none.
+  std::string_view first_cell(std::size_t column) const;
+
+  /// Goes to the next row that has as many cells as the header; false after the last.
+  bool next();
+
+  std::int64_t line() const { return line_number_; }
+  std::string_view cell(std::size_t column) const { return cells_[column]; }
+
+  /// The finite number in a cell; absent if it is anything else.
+  std::optional<double> number(std::size_t column) const {
+    return parse_number(cells_[column], dialect_.point);
+  }
+
+  /// Notes that the row is not what it should be.
+  void reject(const std::string& message) { reject_at(line_number_, 0, message); }
+  void reject_cell(std::size_t column, const std::string& expectation);
+  void reject_at(std::int64_t line, std::int64_t column, const std::string& message);
+
+  /// How many rows have been left out, and what was wrong with the first of them.
+  std::int64_t rows_left_out() const { return rejected_; }
+  const std::vector<std::string>& remarks() const { return findings_.lines(); }
+
+  /// @throws InputError if a required column was missing
+  void throw_missing_columns() const { findings_.throw_if_any(); }
+
+  /// @throws InputError with all findings, unless bad rows are left out
+  void throw_findings() const;
+
+  bool can_rewind() const { return input_.can_rewind(); }
+
+  /// Goes back to the first row and forgets the findings.
+  void rewind();
+
+ private:
+  struct SampleLine {
+    std::string text;
+    std::int64_t number;
+  };
+
+  void take_sample();
+  void find_header(const std::string& last_comment);
+  bool take_units_row();
+  std::optional<std::string_view> next_line();
+
+  ReadOptions options_;
+  TextInput input_;
+  Findings findings_;
+  std::int64_t rejected_ = 0;
+  Dialect dialect_;
+  std::vector<Heading> headings_;
+  ColumnMap columns_;
+  bool has_header_ = false;
+  std::vector<SampleLine> sample_;  // the first lines that are no comments
+  std::size_t first_row_ = 0;       // where in the sample the data begin
+  std::size_t at_ = 0;              // in the sample
+  std::string_view line_;
+  std::int64_t line_number_ = 0;
+  std::vector<std::string_view> cells_;
+  std::vector<std::string> owned_;
+  std::vector<std::string> first_cells_;
+};
+
+}  // namespace ghtrack

@@ -1,0 +1,174 @@
+#include "tools/metrics/mot_benchmark.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "tools/metrics/best_pairs.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr std::int32_t kPedestrian = 1;
+constexpr std::int32_t kLastClass = 13;
+constexpr std::array<std::int32_t, 4> kDistractors = {2, 7, 8, 12};
+constexpr std::int32_t kNonMotVehicle = 6;  // a distractor in MOT20
+constexpr double kSameBox = 0.5;            // IoU
+
+struct Name {
+  MotBenchmark benchmark;
+  std::string_view name;
+};
+constexpr std::array<Name, 5> kNames = {{{MotBenchmark::kNone, "none"},
+                                         {MotBenchmark::kMot15, "MOT15"},
+                                         {MotBenchmark::kMot16, "MOT16"},
+                                         {MotBenchmark::kMot17, "MOT17"},
+                                         {MotBenchmark::kMot20, "MOT20"}}};
+
+bool has_classes(MotBenchmark benchmark) {
+  return benchmark != MotBenchmark::kNone && benchmark != MotBenchmark::kMot15;
+}
+
+bool is_distractor(MotBenchmark benchmark, std::int32_t category) {
+  return std::find(kDistractors.begin(), kDistractors.end(), category) != kDistractors.end() ||
+         (benchmark == MotBenchmark::kMot20 && category == kNonMotVehicle);
+}
+
+bool is_scored(MotBenchmark benchmark, const MotRow& row) {
+  return row.confidence != 0.0 && (!has_classes(benchmark) || row.category == kPedestrian);
+}
+
+Box box_of(const MotRow& row) { return {row.left, row.top, row.width, row.height}; }
+
+/// Takes the rows of the first frame off the front.
+std::span<const MotRow> take_frame(std::span<const MotRow>& rows, std::int32_t frame) {
+  std::size_t count = 0;
+  while (count < rows.size() && rows[count].frame == frame) ++count;
+  const auto taken = rows.first(count);
+  rows = rows.subspan(count);
+  return taken;
+}
+
+/// Which boxes of tracks match a distractor of the truth.
+std::vector<bool> on_distractors(MotBenchmark benchmark, std::span<const MotRow> truth,
+                                 std::span<const MotRow> tracks) {
+  std::vector<bool> result(tracks.size(), false);
+  std::vector<Box> truth_boxes, track_boxes;
+  for (const MotRow& row : truth) truth_boxes.push_back(box_of(row));
+  for (const MotRow& row : tracks) track_boxes.push_back(box_of(row));
+  std::vector<Pair> pairs = overlapping_pairs(truth_boxes, track_boxes);
+  std::erase_if(pairs,
+                [](const Pair& pair) { return pair.value < kSameBox - kSimilarityRounding; });
+  for (const std::size_t i : most_valuable_pairs(pairs, static_cast<int>(truth.size()),
+                                                 static_cast<int>(tracks.size()))) {
+    if (is_distractor(benchmark, truth[static_cast<std::size_t>(pairs[i].truth)].category)) {
+      result[static_cast<std::size_t>(pairs[i].track)] = true;
+    }
+  }
+  return result;
+}
+
+void refuse_other_classes(std::span<const MotRow> tracks) {
+  const auto other = std::find_if(tracks.begin(), tracks.end(), [](const MotRow& row) {
+    return row.category > kPedestrian && row.category <= kLastClass;
+  });
+  if (other == tracks.end()) return;
+  throw InputError(
+      fmt::format("the tracks have a box of class {} in frame {}; the benchmark is of pedestrians, "
+                  "class 1; --benchmark none scores every class",
+                  other->category, other->frame));
+}
+
+/// What the rows that are not scored were, for a message.
+std::string reasons(std::span<const MotRow> truth) {
+  std::map<std::int32_t, std::int64_t> by_class;
+  std::int64_t flagged = 0;
+  for (const MotRow& row : truth) {
+    if (row.confidence == 0.0) {
+      ++flagged;
+    } else {
+      ++by_class[row.category];
+    }
+  }
+  std::string text = flagged > 0 ? fmt::format("{} with confidence 0", flagged) : "";
+  for (const auto& [category, count] : by_class) {
+    text += fmt::format("{}{} of class {}", text.empty() ? "" : ", ", count, category);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string_view to_string(MotBenchmark benchmark) {
+  return kNames[static_cast<std::size_t>(benchmark)].name;
+}
+
+std::optional<MotBenchmark> benchmark_named(std::string_view name) {
+  for (const Name& known : kNames) {
+    if (known.name == name) return known.benchmark;
+  }
+  return std::nullopt;
+}
+
+MotBenchmark recognise_benchmark(const std::filesystem::path& path, std::span<const MotRow> truth) {
+  const bool classes =
+      std::any_of(truth.begin(), truth.end(), [](const MotRow& row) { return row.category != -1; });
+  if (!classes) return MotBenchmark::kMot15;
+  const std::string text = path.string();
+  for (const Name& known : kNames) {
+    if (!has_classes(known.benchmark)) continue;
+    if (text.find(known.name) != std::string::npos) return known.benchmark;
+  }
+  return MotBenchmark::kMot17;
+}
+
+ScoreResult score_boxes(
+    MotBenchmark benchmark, const std::string& truth_name, std::span<const MotRow> truth,
+    std::span<const MotRow> tracks, const ScoreOptions& options,
+    const std::function<void(const Scorer::Step&, const ScoredSet&, const ScoredSet&)>& on_step) {
+  if (has_classes(benchmark)) refuse_other_classes(tracks);
+  if (!truth.empty() && std::none_of(truth.begin(), truth.end(), [&](const MotRow& row) {
+        return is_scored(benchmark, row);
+      })) {
+    throw InputError(fmt::format(
+        "{}: error: none of its {} rows is scored under the rules of {} ({}){}", truth_name,
+        truth.size(), to_string(benchmark), reasons(truth),
+        has_classes(benchmark) ? "; --benchmark none scores every class" : ""));
+  }
+  Scorer scorer(options, true);
+  InstantCounts instants;
+  ScoredSet objects, estimates;
+  while (!truth.empty() || !tracks.empty()) {
+    const std::int32_t frame = truth.empty()    ? tracks.front().frame
+                               : tracks.empty() ? truth.front().frame
+                                                : std::min(truth.front().frame, tracks.front().frame);
+    const auto truth_now = take_frame(truth, frame);
+    const auto tracks_now = take_frame(tracks, frame);
+    const std::vector<bool> removed = has_classes(benchmark)
+                                          ? on_distractors(benchmark, truth_now, tracks_now)
+                                          : std::vector<bool>(tracks_now.size(), false);
+    objects.clear();
+    estimates.clear();
+    for (const MotRow& row : truth_now) {
+      if (is_scored(benchmark, row)) objects.add(row.id, box_of(row));
+    }
+    for (std::size_t i = 0; i < tracks_now.size(); ++i) {
+      if (!removed[i]) estimates.add(tracks_now[i].id, box_of(tracks_now[i]));
+    }
+    if (objects.ids.empty() && estimates.ids.empty()) continue;
+    ++(objects.ids.empty()     ? instants.tracks_alone
+       : estimates.ids.empty() ? instants.truth_alone
+                               : instants.matched);
+    const Scorer::Step step = scorer.add(frame, objects, estimates);
+    if (on_step) on_step(step, objects, estimates);
+  }
+  ScoreResult result = scorer.result();
+  result.instants = instants;
+  result.benchmark = to_string(benchmark);
+  return result;
+}
+
+}  // namespace ghtrack

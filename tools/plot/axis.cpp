@@ -1,0 +1,44 @@
+#include "tools/plot/axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ghtrack::plot {
+
+std::string Axis::label(double tick) const {
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (largest >= 1e6 || (largest > 0.0 && largest < 1e-3)) {
+    return std::abs(tick) < 1e-9 * largest ? "0" : fmt::format("{:.4g}", tick);
+  }
+  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  const std::string text = fmt::format("{:.{}f}", tick, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos ? fmt::format("{:.{}f}", 0.0, decimals)
+                                                            : text;
+}
+
+Axis axis_over(double low, double high, double ticks, bool tight) {
+  Axis axis;
+  if (!(low <= high)) return axis_over(0.0, 1.0, ticks, tight);
+  if (high - low <= 1e-9 * std::max(std::abs(low), std::abs(high)) || low == high) {
+    const double reach = low == 0.0 ? 1.0 : 0.1 * std::abs(low);
+    low -= reach;
+    high += reach;
+  }
+  const double margin = tight ? 0.0 : 0.05 * (high - low);
+  axis.low = low - margin;
+  axis.high = high + margin;
+  const double rough = axis.span() / std::max(1.0, ticks);
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double unit = rough / power;
+  axis.step = power * (unit < 1.5 ? 1.0 : unit < 3.5 ? 2.0 : unit < 7.5 ? 5.0 : 10.0);
+  const auto first = static_cast<long>(std::ceil(axis.low / axis.step - 1e-9));
+  const auto last = static_cast<long>(std::floor(axis.high / axis.step + 1e-9));
+  for (long i = first; i <= last && i - first < 100; ++i) {
+    axis.ticks.push_back(static_cast<double>(i) * axis.step);
+  }
+  return axis;
+}
+
+}  // namespace ghtrack::plot

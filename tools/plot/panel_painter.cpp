@@ -1,0 +1,281 @@
+#include "tools/plot/panel_painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tools/plot/axis.hpp"
+
+namespace ghtrack::plot {
+namespace {
+
+using Align = Canvas::Align;
+
+/// The least and the greatest of finite values.
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  void add(const std::vector<double>& values) {
+    for (const double value : values) add(value);
+  }
+};
+
+/// The coordinate system of a panel on the page.
+class Frame {
+ public:
+  Frame(const Panel& panel, const Rectangle& plot, double font_size) : plot_(plot) {
+    Range xs, ys;
+    for (const Curve& curve : panel.curves) {
+      xs.add(curve.x);
+      ys.add(curve.y);
+    }
+    for (const Band& band : panel.bands) {
+      xs.add(band.x);
+      ys.add(band.low);
+      ys.add(band.high);
+    }
+    for (const Level& level : panel.levels) ys.add(level.y);
+    if (panel.y_from) ys.low = *panel.y_from;
+    if (panel.y_to) ys.high = *panel.y_to;
+    const double x_ticks = plot.width / (font_size * 6.5);
+    const double y_ticks = plot.height / (font_size * 3.5);
+    x = axis_over(xs.low, xs.high, x_ticks, !panel.equal_scales);
+    y = axis_over(ys.low, ys.high, y_ticks, panel.y_from && panel.y_to);
+    if (panel.equal_scales) equalise(x_ticks, y_ticks);
+  }
+
+  double to_x(double value) const { return plot_.x + (value - x.low) / x.span() * plot_.width; }
+  double to_y(double value) const {
+    return plot_.y + plot_.height - (value - y.low) / y.span() * plot_.height;
+  }
+  const Rectangle& plot() const { return plot_; }
+
+  Axis x, y;
+
+ private:
+  /// Widens one axis until both have the same scale.
+  void equalise(double x_ticks, double y_ticks) {
+    const double scale = std::max(x.span() / plot_.width, y.span() / plot_.height);
+    const auto widen = [&](const Axis& axis, double length, double ticks) {
+      const double middle = (axis.low + axis.high) / 2.0;
+      const double reach = scale * length / 2.0;
+      return axis_over(middle - reach, middle + reach, ticks, true);
+    };
+    x = widen(x, plot_.width, x_ticks);
+    y = widen(y, plot_.height, y_ticks);
+  }
+
+  Rectangle plot_;
+};
+
+/// Adds the points of a curve to Cairo's path; points closer than a hair to the last are passed
+/// over, so that a million of them cost what can be seen of them.
+void trace(cairo_t* cairo, const Frame& frame, const std::vector<double>& x,
+           const std::vector<double>& y) {
+  constexpr double kHair = 0.15;  // [pt]
+  bool pen_down = false;
+  double last_x = 0.0, last_y = 0.0;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+      pen_down = false;
+      continue;
+    }
+    const double px = frame.to_x(x[i]), py = frame.to_y(y[i]);
+    if (!pen_down) {
+      cairo_move_to(cairo, px, py);
+    } else if (std::hypot(px - last_x, py - last_y) < kHair && i + 1 < x.size()) {
+      continue;
+    } else {
+      cairo_line_to(cairo, px, py);
+    }
+    pen_down = true;
+    last_x = px;
+    last_y = py;
+  }
+}
+
+void draw_dots(Canvas& canvas, const Frame& frame, const Curve& curve, double radius) {
+  cairo_t* const cairo = canvas.cairo();
+  double last_x = -1e9, last_y = -1e9;
+  for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
+    const double px = frame.to_x(curve.x[i]), py = frame.to_y(curve.y[i]);
+    if (std::hypot(px - last_x, py - last_y) < 0.3) continue;
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, px, py, radius, 0.0, 2.0 * std::numbers::pi);
+    last_x = px;
+    last_y = py;
+  }
+  cairo_fill(cairo);
+}
+
+void draw_curve(Canvas& canvas, const Frame& frame, const Curve& curve, const Palette& palette,
+                double font_size) {
+  cairo_t* const cairo = canvas.cairo();
+  canvas.set(palette.of(curve.colour).with_alpha(curve.colour < -1 ? 0.7 : 1.0));
+  if (curve.mark == Mark::kDots) return draw_dots(canvas, frame, curve, font_size * 0.11);
+  const double dashes[] = {font_size * 0.45, font_size * 0.3};
+  cairo_set_dash(cairo, dashes, curve.mark == Mark::kDashes ? 2 : 0, 0.0);
+  cairo_set_line_width(cairo, font_size * (curve.mark == Mark::kDashes ? 0.09 : 0.12));
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+  trace(cairo, frame, curve.x, curve.y);
+  cairo_stroke(cairo);
+  cairo_set_dash(cairo, nullptr, 0, 0.0);
+}
+
+void draw_band(Canvas& canvas, const Frame& frame, const Band& band, const Palette& palette) {
+  cairo_t* const cairo = canvas.cairo();
+  canvas.set(palette.of(band.colour).with_alpha(0.18));
+  std::size_t begin = 0;
+  while (begin < band.x.size()) {  // pieces between gaps
+    std::size_t end = begin;
+    while (end < band.x.size() && std::isfinite(band.low[end]) && std::isfinite(band.high[end])) {
+      ++end;
+    }
+    if (end > begin + 1) {
+      cairo_move_to(cairo, frame.to_x(band.x[begin]), frame.to_y(band.low[begin]));
+      for (std::size_t i = begin; i < end; ++i) {
+        cairo_line_to(cairo, frame.to_x(band.x[i]), frame.to_y(band.low[i]));
+      }
+      for (std::size_t i = end; i-- > begin;) {
+        cairo_line_to(cairo, frame.to_x(band.x[i]), frame.to_y(band.high[i]));
+      }
+      cairo_close_path(cairo);
+      cairo_fill(cairo);
+    }
+    begin = end + 1;
+  }
+}
+
+void draw_axes(Canvas& canvas, const Panel& panel, const Frame& frame, const Rectangle& place,
+               const Palette& palette, double font_size) {
+  const Rectangle& plot = frame.plot();
+  const double small = font_size * 0.85;
+  for (const double tick : frame.x.ticks) {
+    const double at = frame.to_x(tick);
+    canvas.line(at, plot.y, at, plot.y + plot.height, 0.6, palette.grid);
+    canvas.text(at, plot.y + plot.height + small * 1.35, frame.x.label(tick), small, palette.ink,
+                Align::kCentre);
+  }
+  for (const double tick : frame.y.ticks) {
+    const double at = frame.to_y(tick);
+    canvas.line(plot.x, at, plot.x + plot.width, at, 0.6, palette.grid);
+    canvas.text(plot.x - small * 0.5, at + small * 0.36, frame.y.label(tick), small, palette.ink,
+                Align::kRight);
+  }
+  canvas.text(plot.x, place.y + font_size * 1.1, panel.title, font_size, palette.ink, Align::kLeft,
+              true);
+  canvas.text(plot.x + plot.width / 2.0, place.y + place.height - font_size * 0.25, panel.x_label,
+              small, palette.ink, Align::kCentre);
+  canvas.text(place.x + small, plot.y + plot.height / 2.0, panel.y_label, small, palette.ink,
+              Align::kCentre, false, -std::numbers::pi / 2.0);
+}
+
+struct Entry {
+  std::string name;
+  Mark mark;
+  int colour;
+  bool is_band;
+};
+
+std::vector<Entry> legend_of(const Panel& panel) {
+  std::vector<Entry> entries;
+  for (const Curve& curve : panel.curves) {
+    if (!curve.name.empty()) entries.push_back({curve.name, curve.mark, curve.colour, false});
+  }
+  // What all curves are compared with comes first, because there may not be room for all of them.
+  std::stable_partition(entries.begin(), entries.end(),
+                        [](const Entry& entry) { return entry.colour < 0; });
+  for (const Band& band : panel.bands) {
+    if (!band.name.empty()) entries.push_back({band.name, Mark::kLine, band.colour, true});
+  }
+  return entries;
+}
+
+/// Draws the legend right-aligned beside the title, in as many of its entries as there is room for.
+void draw_legend(Canvas& canvas, const Panel& panel, const Rectangle& plot, double top,
+                 const Palette& palette, double font_size) {
+  const double small = font_size * 0.8;
+  const double swatch = small * 1.6;
+  const std::vector<Entry> entries = legend_of(panel);
+  const double room =
+      plot.width - canvas.text_width(panel.title, font_size, true) - font_size * 1.5;
+  double needed = 0.0;
+  std::size_t count = 0;
+  for (; count < entries.size(); ++count) {
+    const double width = swatch + canvas.text_width(entries[count].name, small) + small * 1.3;
+    if (needed + width > room) break;
+    needed += width;
+  }
+  double x = plot.x + plot.width - needed;
+  const double y = top + font_size * 1.1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Entry& entry = entries[i];
+    const Colour colour = palette.of(entry.colour);
+    const double middle = y - small * 0.32;
+    if (entry.is_band) {
+      canvas.fill(x, middle - small * 0.35, swatch * 0.8, small * 0.7, colour.with_alpha(0.3));
+    } else if (entry.mark == Mark::kDots) {
+      canvas.set(colour);
+      cairo_arc(canvas.cairo(), x + swatch * 0.4, middle, small * 0.22, 0.0,
+                2.0 * std::numbers::pi);
+      cairo_fill(canvas.cairo());
+    } else {
+      const double dashes[] = {small * 0.4, small * 0.25};
+      cairo_set_dash(canvas.cairo(), dashes, entry.mark == Mark::kDashes ? 2 : 0, 0.0);
+      canvas.line(x, middle, x + swatch * 0.8, middle, small * 0.16, colour);
+      cairo_set_dash(canvas.cairo(), nullptr, 0, 0.0);
+    }
+    canvas.text(x + swatch, y, entry.name, small, palette.ink);
+    x += swatch + canvas.text_width(entry.name, small) + small * 1.3;
+  }
+}
+
+void draw_levels(Canvas& canvas, const Panel& panel, const Frame& frame, const Palette& palette,
+                 double font_size) {
+  const Rectangle& plot = frame.plot();
+  for (const Level& level : panel.levels) {
+    const double at = frame.to_y(level.y);
+    canvas.line(plot.x, at, plot.x + plot.width, at, font_size * 0.07, palette.faint);
+    const double small = font_size * 0.75;
+    const double width = canvas.text_width(level.name, small);
+    const double right = plot.x + plot.width - font_size * 0.3;
+    canvas.fill(right - width - 1.0, at - font_size * 0.95, width + 2.0, font_size * 0.85,
+                palette.ground.with_alpha(0.8));
+    canvas.text(right, at - font_size * 0.25, level.name, small, palette.ink, Align::kRight);
+  }
+}
+
+}  // namespace
+
+void draw_panel(Canvas& canvas, const Panel& panel, const Rectangle& place, const Palette& palette,
+                double font_size) {
+  const double left = font_size * 5.2, right = font_size * 0.8;
+  const double top = font_size * 1.9, bottom = font_size * 3.0;
+  const Rectangle plot{place.x + left, place.y + top, place.width - left - right,
+                       place.height - top - bottom};
+  const Frame frame(panel, plot, font_size);
+  draw_axes(canvas, panel, frame, place, palette, font_size);
+  cairo_t* const cairo = canvas.cairo();
+  cairo_save(cairo);
+  cairo_rectangle(cairo, plot.x, plot.y, plot.width, plot.height);
+  cairo_clip(cairo);
+  for (const Band& band : panel.bands) draw_band(canvas, frame, band, palette);
+  for (const Curve& curve : panel.curves) draw_curve(canvas, frame, curve, palette, font_size);
+  draw_levels(canvas, panel, frame, palette, font_size);
+  cairo_restore(cairo);
+  canvas.set(palette.faint);
+  cairo_set_line_width(cairo, 0.8);
+  cairo_rectangle(cairo, plot.x, plot.y, plot.width, plot.height);
+  cairo_stroke(cairo);
+  draw_legend(canvas, panel, plot, place.y, palette, font_size);
+}
+
+}  // namespace ghtrack::plot

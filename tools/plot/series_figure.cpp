@@ -1,0 +1,142 @@
+#include "tools/plot/series_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "tools/data/table.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack::plot {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The columns of one filter's rows, by name.
+using Columns = std::map<std::string, std::vector<double>>;
+
+struct FilteredSeries {
+  std::vector<std::string> filters;  // in the order of the file; one without a name if it has none
+  std::map<std::string, Columns> rows;
+};
+
+FilteredSeries read(const std::string& path) {
+  Table table(path);
+  FilteredSeries series;
+  const auto filter = table.column("filter");
+  while (table.next()) {
+    const std::string name = filter ? std::string(table.cell(*filter)) : std::string();
+    if (!series.rows.contains(name)) series.filters.push_back(name);
+    Columns& columns = series.rows[name];
+    for (std::size_t i = 0; i < table.headings().size(); ++i) {
+      if (i != filter) {
+        columns[table.headings()[i].text].push_back(table.number(i).value_or(kNothing));
+      }
+    }
+  }
+  table.throw_findings();
+  if (series.filters.empty()) throw InputError(path + ": error: the series has no rows");
+  return series;
+}
+
+const std::vector<double>* column(const FilteredSeries& series, const std::string& filter,
+                                  const std::string& name) {
+  const Columns& columns = series.rows.at(filter);
+  const auto found = columns.find(name);
+  return found == columns.end() ? nullptr : &found->second;
+}
+
+Panel panel_of(const FilteredSeries& series, const std::string& title, const std::string& y_label,
+               const std::string& name, Mark mark) {
+  Panel panel{.title = title, .x_label = "t [s]", .y_label = y_label};
+  int colour = 0;
+  for (const std::string& filter : series.filters) {
+    const auto* const values = column(series, filter, name);
+    if (values == nullptr) continue;
+    panel.curves.push_back({.name = filter,
+                            .x = *column(series, filter, "t"),
+                            .y = *values,
+                            .mark = mark,
+                            .colour = colour++});
+  }
+  return panel;
+}
+
+void add_bounds(Panel& panel) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const Curve& curve : panel.curves) {
+    for (const double value : curve.y) {
+      if (!std::isfinite(value)) continue;
+      sum += value * value;
+      ++count;
+    }
+  }
+  if (count == 0) return;
+  const double rms = std::sqrt(sum / static_cast<double>(count));
+  panel.levels = {{2.0 * rms, "+ 2 rms"}, {-2.0 * rms, "− 2 rms"}};
+}
+
+/// The panels of one axis; its columns end in `suffix`.
+void add_axis(const FilteredSeries& series, const std::string& suffix, Figure& figure) {
+  const std::string& first = series.filters.front();
+  Panel values = panel_of(series, "estimate" + suffix, "x" + suffix, "x" + suffix, Mark::kLine);
+  const std::vector<double>& t = *column(series, first, "t");
+  if (const auto* const z = column(series, first, "z" + suffix)) {
+    values.curves.insert(values.curves.begin(), {.name = "measured",
+                                                 .x = t,
+                                                 .y = *z,
+                                                 .mark = Mark::kDots,
+                                                 .colour = -2});
+  }
+  const auto* const truth = column(series, first, "truth" + suffix);
+  if (truth != nullptr) {
+    values.curves.push_back(
+        {.name = "truth", .x = t, .y = *truth, .mark = Mark::kDashes, .colour = -1});
+  }
+  figure.panels.push_back(std::move(values));
+  Panel residual =
+      panel_of(series, "residual" + suffix, "z − prior", "residual" + suffix, Mark::kLine);
+  add_bounds(residual);
+  figure.panels.push_back(std::move(residual));
+  if (truth != nullptr) {
+    Panel error = panel_of(series, "error" + suffix, "estimate − truth", "x" + suffix, Mark::kLine);
+    for (std::size_t i = 0; i < error.curves.size(); ++i) {
+      const auto* const own = column(series, series.filters[i], "truth" + suffix);
+      for (std::size_t k = 0; own != nullptr && k < error.curves[i].y.size(); ++k) {
+        error.curves[i].y[k] -= (*own)[k];
+      }
+    }
+    figure.panels.push_back(std::move(error));
+  }
+  figure.panels.push_back(
+      panel_of(series, "rate" + suffix, "dx" + suffix, "dx" + suffix, Mark::kLine));
+}
+
+}  // namespace
+
+bool is_series_file(const std::string& path) {
+  const Table table(path);
+  return table.column("t") && (table.column("x_pred") || table.column("x_pred_x")) &&
+         !table.column("track_id");
+}
+
+Figure figure_of_series(const std::string& path, const std::string& title) {
+  const FilteredSeries series = read(path);
+  Figure figure{.title = title, .panels = {}};
+  const Columns& columns = series.rows.at(series.filters.front());
+  if (columns.contains("x")) {
+    add_axis(series, "", figure);
+  } else {
+    for (const char* suffix : {"_x", "_y", "_z"}) {
+      if (columns.contains(std::string("x") + suffix)) add_axis(series, suffix, figure);
+    }
+  }
+  return figure;
+}
+
+}  // namespace ghtrack::plot
