@@ -48,6 +48,16 @@ std::optional<WorldPoint> FlatLens::to_world(const Vec2& pixel, const ImageSize&
   return point;
 }
 
+Eigen::Matrix3d FlatLens::homography(const ImageSize& image) const {
+  const double scale = 1.0 / metres_per_pixel;
+  const Vec2 middle = middle_of(image);
+  Eigen::Matrix3d h;
+  h << scale, 0.0, middle.x() - scale * centre.x(),   //
+      0.0, -scale, middle.y() + scale * centre.y(),  //
+      0.0, 0.0, 1.0;
+  return h;
+}
+
 std::optional<Vec2> Pinhole::to_pixel(const Vec2& world, const ImageSize& image) const {
   const Axes axes = axes_of(*this);
   const Eigen::Vector3d offset(world.x() - position.x(), world.y() - position.y(), -distance);
@@ -71,6 +81,19 @@ std::optional<WorldPoint> Pinhole::to_world(const Vec2& pixel, const ImageSize& 
       scale * (per_column.head<2>() * ray.z() - ray.head<2>() * per_column.z());
   point.per_pixel.col(1) = scale * (per_row.head<2>() * ray.z() - ray.head<2>() * per_row.z());
   return point;
+}
+
+Eigen::Matrix3d Pinhole::homography(const ImageSize& image) const {
+  const Axes axes = axes_of(*this);
+  const Vec2 middle = middle_of(image);
+  Eigen::Matrix3d offset;  // from the lens to the point of the plane
+  offset << 1.0, 0.0, -position.x(), 0.0, 1.0, -position.y(), 0.0, 0.0, -distance;
+  const Eigen::RowVector3d depth = axes.forward.transpose() * offset;
+  Eigen::Matrix3d h;
+  h.row(0) = focal_px * (axes.right.transpose() * offset) + middle.x() * depth;
+  h.row(1) = -focal_px * (axes.up.transpose() * offset) + middle.y() * depth;
+  h.row(2) = depth;
+  return h;
 }
 
 std::optional<Vec2> Camera::to_pixel(const Vec2& world) const {
@@ -123,6 +146,10 @@ std::optional<Detection> Camera::report_of(const Vec2& pixel) const {
   Detection detection;
   detection.position = point->position;
   detection.covariance = variance * point->per_pixel * point->per_pixel.transpose();
+  const auto homography =
+      std::visit([&](const auto& through) { return through.homography(image); }, lens);
+  detection.measured = Measurement{reported, Eigen::Matrix2d(variance * Eigen::Matrix2d::Identity()),
+                                   PixelModel{homography}};
   return detection;
 }
 

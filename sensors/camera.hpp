@@ -15,6 +15,7 @@ namespace ghtrack {
 using ImageSize = std::array<int, 2>;
 
 /// A map from the plane of the world to an image and back, with the derivative of the way back.
+/// Its homography is the way there in matrix form, see PixelModel.
 struct WorldPoint {
   Vec2 position = Vec2::Zero();                         // [m]
   Eigen::Matrix2d per_pixel = Eigen::Matrix2d::Zero();  // d position / d pixel [m/px]
@@ -30,6 +31,7 @@ struct FlatLens {
 
   std::optional<Vec2> to_pixel(const Vec2& world, const ImageSize& image) const;
   std::optional<WorldPoint> to_world(const Vec2& pixel, const ImageSize& image) const;
+  Eigen::Matrix3d homography(const ImageSize& image) const;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -58,6 +60,7 @@ struct Pinhole {
 
   std::optional<Vec2> to_pixel(const Vec2& world, const ImageSize& image) const;
   std::optional<WorldPoint> to_world(const Vec2& pixel, const ImageSize& image) const;
+  Eigen::Matrix3d homography(const ImageSize& image) const;
 
   template <class Visitor>
   static void describe(Visitor& v) {

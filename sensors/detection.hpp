@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sensors/field_of_view.hpp"
+#include "sensors/measurement.hpp"
 
 namespace ghtrack {
 
@@ -13,6 +15,7 @@ struct Detection {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();        // world frame [m]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  // of the position's error [m²]
   std::string label;  // the reported class, such as "ball"; empty if the sensor says nothing
+  std::optional<Measurement> measured = {};  // what the position comes from, if it is not measured
 };
 
 /// All detections of one sensor at one instant: all that a tracker may see.

@@ -15,6 +15,13 @@ Vec2 turned(const Vec2& direction, double angle) {
           turn.sin * direction.x() + turn.cos * direction.y()};
 }
 
+Measurement as_measured(const PolarMeasurement& polar, const PolarNoise& noise, const Vec2& site) {
+  const double bearing = std::atan2(polar.direction.y(), polar.direction.x());
+  const Vec2 variance(noise.range * noise.range, noise.bearing * noise.bearing);
+  return {Vec2(polar.range, bearing), Eigen::Matrix2d(variance.asDiagonal()),
+          RangeBearingModel{site}};
+}
+
 }  // namespace
 
 Detection to_cartesian(const PolarMeasurement& measured, const PolarNoise& noise) {
@@ -58,6 +65,7 @@ std::optional<Detection> Radar::measure(const Vec2& truth, const Vec2& site,
           turned(offset / range, bias_bearing_deg * kRadiansPerDegree + sigma.bearing * error.y())};
   Detection detection = to_cartesian(measured, sigma);
   detection.position += site;
+  detection.measured = as_measured(measured, sigma, site);
   return detection;
 }
 
@@ -67,6 +75,7 @@ Detection Radar::false_alarm(const Vec2& place, const Vec2& site) const {
   if (measured.range > 0.0) measured.direction = offset / measured.range;
   Detection detection = to_cartesian(measured, noise());
   detection.position = place;
+  detection.measured = as_measured(measured, noise(), site);
   return detection;
 }
 

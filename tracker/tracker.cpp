@@ -27,9 +27,9 @@ void predict(Track& track, double dt) {
   track.detection.reset();
 }
 
-void hit(Track& track, const DetectionGrid::Member& found) {
+void hit(Track& track, const DetectionGrid::Member& found, const Scan& scan) {
   track.detection = static_cast<std::size_t>(found.detection);
-  const bool is_used = update(track.filter, found.position, found.covariance);
+  const bool is_used = update(track.filter, scan.detections[*track.detection]);
   if (is_used) track.residual = found.position - track.prediction.position;
   track.innovation_covariance = track.prediction.covariance + found.covariance;
   track.unseen = 0;
@@ -127,7 +127,7 @@ FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) 
   for (const auto& [label, config] : filters) {
     std::visit(
         [&all, &label = label](const auto& filter) {
-          if constexpr (std::is_same_v<decltype(filter), const MultipleModelConfig&>) {
+          if constexpr (requires { filter.filters; }) {
             for (const auto& [model, single] : filter.filters) {
               all.filters.emplace(label + " " + model, single);
             }
@@ -149,10 +149,15 @@ TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sen
   }
   std::map<std::string, FilterConfig> by_label = config_.filters;
   by_label.try_emplace(std::string(TrackerConfig::kDefaultFilter), default_filter(config_.filters));
-  for (const SensorTraits& sensor : sensors_) {
+  // Gains that somebody has set are meant for the sensor that tells most in a given time.
+  const auto best = std::min_element(
+      sensors_.begin(), sensors_.end(), [](const SensorTraits& a, const SensorTraits& b) {
+        return a.sigma * a.sigma * a.period < b.sigma * b.sigma * b.period;
+      });
+  for (std::size_t sensor = 0; sensor < sensors_.size(); ++sensor) {
     FiltersByLabel& filters = filters_.emplace_back();
     for (const auto& [label, filter] : by_label) {
-      filters.emplace(label, make_filter(filter, sensor.sigma, sensor.period));
+      filters.emplace(label, make_filter(filter, best->sigma, best->period));
     }
   }
 }
@@ -204,7 +209,7 @@ TrackerState step(const TrackerDesign& design, TrackerState state, const Scan& s
     if (detection == kMissed) {
       miss(tracks[i], sensor);
     } else {
-      hit(tracks[i], members[detection]);
+      hit(tracks[i], members[detection], scan);
     }
     if (!survives(config, tracks[i])) continue;
     if (alive != i) tracks[alive] = std::move(tracks[i]);

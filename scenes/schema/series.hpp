@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenes/schema/names.hpp"
+#include "tracker/filters/axis_filter.hpp"
 #include "tracker/filters/gains/gains.hpp"
 
 namespace ghtrack {
@@ -107,7 +108,58 @@ struct GivenSeries {
   }
 };
 
-using SeriesData = std::variant<GeneratedSeries, GivenSeries>;
+/// Readings of somebody who walks along a row of places, such as a dog in a hallway with doors.
+struct WalkSeries {
+  static constexpr std::string_view kind = "walk";
+  static constexpr std::string_view about =
+      "readings of somebody who walks along a ring of places, such as a dog in a hallway with doors";
+
+  int points = 20;
+  std::vector<double> map;  // what there is in each place
+  int start = 0;
+  int movement = 1;
+  std::vector<double> kernel = {1.0};
+  double accuracy = 1.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("points", &WalkSeries::points,
+            {.unit = "1", .meaning = "number of readings", .minimum = 1, .maximum = 1'000'000});
+    v.field("map", &WalkSeries::map,
+            {.meaning = "what there is to be read in each place: 1 for a door, 0 for a wall",
+             .required = true,
+             .min_items = 2,
+             .max_items = 10'000});
+    v.field("start", &WalkSeries::start,
+            {.unit = "1", .meaning = "place before the first step", .minimum = 0, .maximum = 9'999});
+    v.field("movement", &WalkSeries::movement,
+            {.unit = "1", .meaning = "places meant to move in a step", .minimum = -1000,
+             .maximum = 1000});
+    v.field("kernel", &WalkSeries::kernel,
+            {.unit = "1",
+             .meaning = "probabilities of moving less, as meant and more, such as [0.1, 0.8, 0.1]",
+             .minimum = 0.0,
+             .min_items = 1,
+             .max_items = 1001});
+    v.field("accuracy", &WalkSeries::accuracy,
+            {.unit = "1",
+             .meaning = "probability that a reading is right; a wrong one is that of another place "
+                        "where something else is",
+             .minimum = 0.0,
+             .maximum = 1.0});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (start >= static_cast<int>(map.size())) report("start", "is not a place of the map");
+    if (kernel.size() % 2 == 0) report("kernel", "an odd number of probabilities has a middle one");
+    double sum = 0.0;
+    for (const double weight : kernel) sum += weight;
+    if (!(sum > 0.0)) report("kernel", "one of the probabilities must be positive");
+  }
+};
+
+using SeriesData = std::variant<GeneratedSeries, GivenSeries, WalkSeries>;
 
 /// When does the initial guess hold?
 enum class GuessAt {
@@ -158,7 +210,10 @@ struct SeriesGhk {
   }
 };
 
-using SeriesModel = std::variant<SeriesGh, SeriesGhk>;  // add yours here
+/// Free gains of any kind, and the filters of AxisFilterConfig that have none.
+using SeriesModel =
+    std::variant<SeriesGh, SeriesGhk, KalmanCvConfig, KalmanCaConfig, LeastSquaresConfig,
+                 ScalarKalmanConfig, DiscreteBayesConfig>;
 
 /// One filter of a series and its initial guess. Any finite gains are accepted: exploring bad ones
 /// is the point.
@@ -169,6 +224,7 @@ struct SeriesFilter {
   double x0 = 0.0;
   double dx0 = 0.0;
   std::optional<double> dt;  // the filter's idea of the time step; absent: the data's [s]
+  double sigma = 1.0;        // its idea of the measurements' 1-sigma error
   SeriesModel model;
 
   template <class Visitor>
@@ -181,6 +237,9 @@ struct SeriesFilter {
              .meaning = "the filter's idea of the time step; without it the data's",
              .minimum = 1e-9,
              .maximum = 1e9});
+    v.field("sigma", &SeriesFilter::sigma,
+            {.meaning = "the filter's idea of the 1-sigma error of a measurement, for Kalman filters",
+             .above = 0.0});
     v.tagged("filter", &SeriesFilter::model, {.meaning = "the family, as in `ghtrack filter`"});
   }
 

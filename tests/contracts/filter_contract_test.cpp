@@ -30,16 +30,30 @@ MultipleModelConfig two_models() {
   return config;
 }
 
+/// Modes of different states.
+ImmConfig three_modes() {
+  ImmConfig config;
+  config.filters["straight"] = KalmanCvConfig{};
+  config.filters["turning"] = EkfConfig{.motion = CoordinatedTurn{}};
+  config.filters["speeding"] = KalmanCaConfig{};
+  return config;
+}
+
 /// Every rule of a filter with designed gains.
 template <int Order, class... Rules>
 void add_rules(std::vector<FilterConfig>& all, const std::variant<Rules...>&) {
   (all.push_back(GainFilterConfig<Order>{.design = Rules{}}), ...);
 }
 
-/// Every filter by default, every gain rule, and two filters side by side.
+/// Every filter by default, every gain rule, filters side by side and interacting ones.
 std::vector<FilterConfig> configurations() {
   std::vector<FilterConfig> all = defaults_of(SingleFilterConfig{});
   all.push_back(two_models());
+  all.push_back(ImmConfig{});
+  all.push_back(three_modes());
+  all.push_back(EkfConfig{.motion = motion::NearlyConstant<2>{}});
+  all.push_back(EkfConfig{.motion = CoordinatedTurn{}});
+  all.push_back(UkfConfig{.motion = CoordinatedTurn{}});
   add_rules<0>(all, gain_design::Rules<0>::Any{});
   add_rules<1>(all, gain_design::Rules<1>::Any{});
   add_rules<2>(all, gain_design::Rules<2>::Any{});

@@ -75,12 +75,14 @@ struct ViewOptions {
 
 struct FilterCommandOptions {
   std::string file = "-";  // series, or - for standard input
-  std::string filter = "gh";
+  std::string filter = "gh";  // a name, or a configuration as in a scene
   std::optional<double> g, h, k, gamma, theta, q, r, p0, u;
-  std::string x0, dx0, ddx0;  // comma-separated, one per axis; empty: 0
+  std::string x0;         // comma-separated, one per axis; empty: starts at the first measurement
+  std::string dx0, ddx0;  // the same; empty: 0
   std::optional<int> order;
-  double dt = 1.0;       // [s]
-  std::string t_column;  // empty: rows are dt apart
+  std::optional<double> dt;      // [s]; of the times, or 1
+  std::optional<double> period;  // of angles
+  std::string t_column;          // empty: rows are dt apart
   bool json = false;
 };
 

@@ -3,79 +3,29 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/number_table.hpp"
 #include "tools/cli/series_filter.hpp"
+#include "tools/cli/series_rows.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/record/csv_writer.hpp"
 #include "tools/record/errors.hpp"
+#include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
 constexpr std::size_t kOutputBlock = std::size_t{1} << 16U;
 constexpr std::array<const char*, 3> kAxes = {"_x", "_y", "_z"};
-
-/// Where in the table a quantity with one value per axis is found.
-template <int D>
-using AxisColumns = std::array<std::size_t, D>;
-
-template <int D>
-Eigen::Matrix<double, D, 1> parse_vector(const std::string& text, const char* option) {
-  Eigen::Matrix<double, D, 1> value = Eigen::Matrix<double, D, 1>::Zero();
-  if (text.empty()) return value;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (int axis = 0; axis < D; ++axis) {
-    const auto [next, error] = std::from_chars(at, end, value[axis]);
-    const bool ends_well = axis + 1 < D ? next != end && *next == ',' : next == end;
-    if (error != std::errc{} || !ends_well || !std::isfinite(value[axis])) {
-      throw UsageError(
-          fmt::format("filter: {} is '{}'; needed are {} finite numbers, separated by commas",
-                      option, printable(text), D));
-    }
-    at = next + (axis + 1 < D ? 1 : 0);
-  }
-  return value;
-}
-
-/// Columns `z` for one axis, `zx,zy[,zz]` for more; for other names the suffix is `_x` ….
-template <int D>
-std::optional<AxisColumns<D>> find_columns(const NumberTable& table, const std::string& name) {
-  AxisColumns<D> columns{};
-  for (int axis = 0; axis < D; ++axis) {
-    const std::string suffix = D == 1 ? "" : name == "z" ? kAxes[axis] + 1 : kAxes[axis];
-    const auto found = table.column(name + suffix);
-    if (!found) return std::nullopt;
-    columns[axis] = *found;
-  }
-  return columns;
-}
-
-/// The value in those columns; nothing if any of them is empty.
-template <int D>
-std::optional<Eigen::Matrix<double, D, 1>> read_vector(const NumberTable& table,
-                                                       const AxisColumns<D>& columns) {
-  Eigen::Matrix<double, D, 1> value;
-  for (int axis = 0; axis < D; ++axis) {
-    const auto cell = table.cell(columns[axis]);
-    if (!cell) return std::nullopt;
-    value[axis] = *cell;
-  }
-  return value;
-}
 
 /// Running means of what --json and the remark at the end report.
 class Errors {
@@ -119,14 +69,13 @@ class Errors {
 /// CSV on standard output, written in large blocks.
 class Output {
  public:
-  template <int D>
-  void header(bool with_acceleration) {
+  void header(std::size_t axes, bool with_acceleration) {
     text_ += "k,t";
     std::vector<const char*> names = {"z", "x_pred", "dx_pred", "residual", "x", "dx"};
     if (with_acceleration) names.insert(names.end(), {"ddx_pred", "ddx"});
     for (const char* name : names) {
-      for (int axis = 0; axis < D; ++axis)
-        text_ += fmt::format(",{}{}", name, D == 1 ? "" : kAxes[axis]);
+      for (std::size_t axis = 0; axis < axes; ++axis)
+        text_ += fmt::format(",{}{}", name, axes == 1 ? "" : kAxes[axis]);
     }
     text_ += '\n';
   }
@@ -136,15 +85,7 @@ class Output {
     text_ += ',';
     append_number(text_, value);
   }
-  template <int D>
-  void vector(const Eigen::Matrix<double, D, 1>& value) {
-    for (int axis = 0; axis < D; ++axis) number(value[axis]);
-  }
-  template <int D>
-  void vector(const std::optional<Eigen::Matrix<double, D, 1>>& value) {
-    if (value) return vector<D>(*value);
-    text_.append(D, ',');
-  }
+  void empty() { text_ += ','; }
   void end_row() {
     text_ += '\n';
     if (text_.size() >= kOutputBlock) flush();
@@ -160,40 +101,40 @@ class Output {
   std::string text_;
 };
 
-template <int D>
+/// Carries a row's values, all of one kind, axis by axis.
+using Axes = std::vector<double>;
+
 class Session {
  public:
-  Session(NumberTable& table, const FilterCommandOptions& options)
-      : table_(table),
-        options_(options),
-        filter_(options, Kinematics<D>{parse_vector<D>(options.x0, "--x0"),
-                                       parse_vector<D>(options.dx0, "--dx0"),
-                                       parse_vector<D>(options.ddx0, "--ddx0")}),
-        z_(*find_columns<D>(table, "z")),
-        truth_(find_columns<D>(table, "truth")),
-        g_(table.column("g")),
-        h_(table.column("h")),
-        k_(table.column("k")),
-        dt_(table.column("dt")) {
-    if (options.t_column.empty()) return;
-    t_ = table.column(options.t_column);
-    if (!t_) table.fail(fmt::format("there is no column '{}'", printable(options.t_column)));
+  Session(NumberTable& table, const FilterCommandOptions& options, bool quiet)
+      : options_(options),
+        quiet_(quiet),
+        rows_(table, options.t_column),
+        plan_(options, rows_.axes()),
+        step_(options.dt ? *options.dt : rows_.typical_step().value_or(1.0)),
+        filter_(options, plan_, step_, rows_.has_times()) {
+    if (options.period && !(*options.period > 0.0 && std::isfinite(*options.period))) {
+      throw UsageError(fmt::format("filter: --period is {}; it must be positive", *options.period));
+    }
   }
 
-  void run(bool quiet) {
-    if (!options_.json) output_.header<D>(filter_.order() == 2);
-    for (std::int64_t row = 1; table_.next(); ++row) {
-      if (row % 4096 == 0) stop_if_interrupted();
-      process(row);
+  void run() {
+    warn_of_unstable_gains();
+    if (!options_.json) output_.header(rows_.axes(), plan_.order == 2);
+    while (const std::optional<MeasuredRow> row = rows_.next()) {
+      if (row->number % 4096 == 0) stop_if_interrupted();
+      process(*row);
+      say(rows_.take_remarks());
     }
+    say(rows_.take_remarks());
     if (options_.json) {
       fmt::print("{}\n", errors_.json().dump());
     } else {
       output_.flush();
-      if (!quiet && errors_.knows_truth()) fmt::print(stderr, "{}\n", errors_.json().dump());
+      if (!quiet_ && errors_.knows_truth()) fmt::print(stderr, "{}\n", errors_.json().dump());
     }
     const Refusals refusals = filter_.refusals();
-    if (!quiet && refusals.times + refusals.measurements > 0) {
+    if (!quiet_ && refusals.times + refusals.measurements > 0) {
       fmt::print(stderr,
                  "ghtrack: warning: refused {} time steps that are not positive and finite and {} "
                  "measurements that are not finite\n",
@@ -202,78 +143,159 @@ class Session {
   }
 
  private:
-  using Vector = Eigen::Matrix<double, D, 1>;
+  /// What the filter says of one moment, and what it was told.
+  struct Moment {
+    std::vector<Kinematics<1>> prior, posterior;
+    std::optional<Axes> z, residual;
+  };
 
-  std::optional<double> cell(const std::optional<std::size_t>& column) const {
-    return column ? table_.cell(*column) : std::nullopt;
+  void warn_of_unstable_gains() const {
+    const auto violated = plan_.constant ? violated_inequality(*plan_.constant) : std::nullopt;
+    if (!violated || quiet_) return;
+    fmt::print(stderr, "ghtrack: warning: these gains are unstable: {} does not hold\n", *violated);
   }
 
-  /// Goes on to the time of the row. @returns the time since the row before
-  double elapse(std::int64_t row) {
-    if (t_) {
-      const auto t = table_.cell(*t_);
-      if (!t) table_.fail("the time is missing");
-      const double dt = row == 1 ? options_.dt : *t - time_;
-      if (row == 1 || dt > 0.0) time_ = *t;
+  void say(const std::vector<std::string>& remarks) const {
+    if (quiet_) return;
+    for (const std::string& remark : remarks) fmt::print(stderr, "{}\n", remark);
+  }
+
+  /// Goes on to the time of the row. @returns the time since the row before [s]
+  double elapse(const MeasuredRow& row) {
+    if (row.t) {
+      const double dt = is_first_ ? step_ : *row.t - time_;
+      is_first_ = false;
+      time_ = *row.t;
       return dt;
     }
-    const auto own = cell(dt_);
-    even_ = even_ && !own;
-    const double dt = own.value_or(options_.dt);
+    even_ = even_ && !row.dt;
+    const double dt = row.dt.value_or(step_);
     if (even_) {
-      time_ = static_cast<double>(row) * options_.dt;
+      time_ = static_cast<double>(row.number) * step_;
     } else if (dt > 0.0 && std::isfinite(dt)) {
       time_ += dt;
     }
     return dt;
   }
 
-  void process(std::int64_t row) {
+  std::vector<Kinematics<1>> estimates() const {
+    std::vector<Kinematics<1>> all;
+    for (std::size_t axis = 0; axis < rows_.axes(); ++axis) all.push_back(filter_.estimate(axis));
+    return all;
+  }
+
+  /// The same angle on the turn that is nearest to `to`; without --period the value itself.
+  double near(double value, double to) const {
+    return options_.period ? to + std::remainder(value - to, *options_.period) : value;
+  }
+
+  void process(const MeasuredRow& row) {
     const double dt = elapse(row);
-    const bool moved = filter_.predict(dt);
-    const Kinematics<D> prior = filter_.estimate();
-    const std::optional<Vector> z = read_vector<D>(table_, z_);
-    std::optional<Vector> residual;
-    if (z && moved) {
-      const bool used = filter_.update(*z, cell(g_), cell(h_), cell(k_));
-      if (used) residual = *z - prior.position;
+    Moment moment;
+    if (row.is_measured()) {
+      moment.z.emplace();
+      for (const auto& value : row.z) moment.z->push_back(*value);
     }
-    const Kinematics<D>& estimate = filter_.estimate();
-    account(z, residual, estimate);
-    if (options_.json) return;
-    output_.integer(row);
+    if (filter_.is_started()) {
+      step(row, dt, moment);
+    } else if (moment.z) {
+      start(row, moment);
+    }
+    account(row, moment);
+    if (!options_.json) write(row, moment);
+  }
+
+  void start(const MeasuredRow& row, Moment& moment) {
+    filter_.start(row);
+    moment.prior = moment.posterior = estimates();
+    if (quiet_) return;
+    fmt::print(stderr,
+               "ghtrack: there is no --x0, so the filter starts at the measurement of row {}\n",
+               row.number);
+  }
+
+  void step(const MeasuredRow& row, double dt, Moment& moment) {
+    // A second measurement at the same time corrects without a step.
+    const bool moved = (row.t && dt == 0.0) || filter_.predict(dt);
+    moment.prior = estimates();
+    if (moment.z && moved) {
+      Axes z = *moment.z;
+      for (std::size_t i = 0; i < z.size(); ++i) z[i] = near(z[i], moment.prior[i].position[0]);
+      if (filter_.update(z, row)) {
+        moment.residual.emplace();
+        for (std::size_t i = 0; i < z.size(); ++i) {
+          moment.residual->push_back(z[i] - moment.prior[i].position[0]);
+        }
+      }
+    }
+    moment.posterior = estimates();
+  }
+
+  void write(const MeasuredRow& row, const Moment& moment) {
+    const auto kinematics = [&](const std::vector<Kinematics<1>>& all, auto&& part) {
+      for (std::size_t i = 0; i < rows_.axes(); ++i) {
+        all.empty() ? output_.empty() : output_.number(part(all[i], i));
+      }
+    };
+    const auto axes = [&](const std::optional<Axes>& values) {
+      for (std::size_t i = 0; i < rows_.axes(); ++i) {
+        values ? output_.number((*values)[i]) : output_.empty();
+      }
+    };
+    // Angles are written on the turn of what was measured.
+    const auto position = [&](const Kinematics<1>& state, std::size_t i) {
+      return near(state.position[0], moment.z ? (*moment.z)[i] : state.position[0]);
+    };
+    const auto velocity = [](const Kinematics<1>& state, std::size_t) { return state.velocity[0]; };
+    const auto acceleration = [](const Kinematics<1>& state, std::size_t) {
+      return state.acceleration[0];
+    };
+    output_.integer(row.number);
     output_.number(time_);
-    output_.template vector<D>(z);
-    output_.template vector<D>(prior.position);
-    output_.template vector<D>(prior.velocity);
-    output_.template vector<D>(residual);
-    output_.template vector<D>(estimate.position);
-    output_.template vector<D>(estimate.velocity);
-    if (filter_.order() == 2) {
-      output_.template vector<D>(prior.acceleration);
-      output_.template vector<D>(estimate.acceleration);
+    axes(moment.z);
+    kinematics(moment.prior, position);
+    kinematics(moment.prior, velocity);
+    axes(moment.residual);
+    kinematics(moment.posterior, position);
+    kinematics(moment.posterior, velocity);
+    if (plan_.order == 2) {
+      kinematics(moment.prior, acceleration);
+      kinematics(moment.posterior, acceleration);
     }
     output_.end_row();
   }
 
-  void account(const std::optional<Vector>& z, const std::optional<Vector>& residual,
-               const Kinematics<D>& estimate) {
+  void account(const MeasuredRow& row, const Moment& moment) {
+    const auto length = [](const Axes& values) {
+      double squares = 0.0;
+      for (const double value : values) squares += value * value;
+      return std::sqrt(squares);
+    };
     errors_.add_row();
-    if (residual) errors_.add_innovation(residual->norm());
-    if (!truth_) return;
-    const std::optional<Vector> truth = read_vector<D>(table_, *truth_);
-    if (!truth) return;
-    errors_.add_error((estimate.position - *truth).squaredNorm());
-    if (z) errors_.add_measurement_error((*z - *truth).squaredNorm());
+    if (moment.residual) errors_.add_innovation(length(*moment.residual));
+    Axes error, measurement_error;
+    for (std::size_t i = 0; i < row.truth.size(); ++i) {
+      if (!row.truth[i]) return;
+      const double truth = *row.truth[i];
+      if (!moment.posterior.empty()) {
+        error.push_back(near(moment.posterior[i].position[0], truth) - truth);
+      }
+      if (moment.z) measurement_error.push_back(near((*moment.z)[i], truth) - truth);
+    }
+    if (!error.empty()) errors_.add_error(std::pow(length(error), 2));
+    if (!measurement_error.empty()) {
+      errors_.add_measurement_error(std::pow(length(measurement_error), 2));
+    }
   }
 
-  NumberTable& table_;
   const FilterCommandOptions& options_;
-  SeriesFilterEngine<D> filter_;
-  AxisColumns<D> z_;
-  std::optional<AxisColumns<D>> truth_;
-  std::optional<std::size_t> g_, h_, k_, dt_, t_;
+  bool quiet_;
+  SeriesRows rows_;
+  FilterPlan plan_;
+  double step_;  // nominal, between rows [s]
+  AxisFilters filter_;
   double time_ = 0.0;
+  bool is_first_ = true;
   bool even_ = true;  // no row has had a step of its own
   Errors errors_;
   Output output_;
@@ -283,17 +305,7 @@ class Session {
 
 int filter(const FilterCommandOptions& options, const Manners& manners) {
   NumberTable table(options.file);
-  warn_of_unstable_gains(options, manners.quiet);
-  if (find_columns<1>(table, "z")) {
-    Session<1>(table, options).run(manners.quiet);
-  } else if (find_columns<3>(table, "z")) {
-    Session<3>(table, options).run(manners.quiet);
-  } else if (find_columns<2>(table, "z")) {
-    Session<2>(table, options).run(manners.quiet);
-  } else {
-    table.fail("there is no column z, nor zx,zy[,zz]; known are the columns " +
-               printable(fmt::format("{}", fmt::join(table.columns(), ", "))));
-  }
+  Session(table, options, manners.quiet).run();
   return 0;
 }
 

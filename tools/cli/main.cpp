@@ -273,7 +273,7 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
   command
       .add_option("--filter", options.filter,
                   "gh, ghk, order0, least-squares, fading-memory, benedict-bordner, kalman-cv, "
-                  "kalman-ca or kalman-1d")
+                  "kalman-ca or kalman-1d; or one as in a scene: '{gh: {design: tracking-index}}'")
       ->capture_default_str();
   add_number(command, "--g", options.g, kAny, "position gain");
   add_number(command, "--h", options.h, kAny, "velocity gain");
@@ -288,16 +288,23 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
   add_number(command, "--p0", options.p0, kNotNegative, "kalman-1d: variance of the initial guess");
   add_number(command, "--u", options.u, kAny, "kalman-1d: movement per step (default: 0)");
   command.add_option("--x0", options.x0,
-                     "initial guess one step before the first row, one per axis");
+                     "initial guess one step before the first row, one per axis; without it the "
+                     "filter starts at the first measurement");
   command.add_option("--dx0", options.dx0, "initial rate");
   command.add_option("--ddx0", options.ddx0, "initial acceleration");
-  add_number(command, "--dt", options.dt, kDuration, "time between rows");
+  add_number(command, "--dt", options.dt, kDuration,
+             "time between rows (default: 1); with --t-column the time between rows that gains are "
+             "meant for (default: the median)");
   command.add_option("--t-column", options.t_column, "column that holds the time of each row");
+  add_number(command, "--period", options.period, kPositive,
+             "of angles, such as 360: residuals are taken the short way round");
   command.add_flag("--json", options.json, "print only n, rmse, mai and measurement_rmse");
   command.footer(
       "Examples:\n"
       "  printf '158\\n164.2\\n160.3\\n' | ghtrack filter --filter gh --g 0.4 --h 0.3 --x0 160 "
       "--dx0 1\n"
+      "  printf '170\\n174\\n178\\n-178\\n' | ghtrack filter --g 0.5 --h 0.2 --period 360\n"
+      "  printf '1\\n3\\n5\\n8\\n' | ghtrack filter --filter '{ghk: {g: 0.5, h: 0.2, k: 0.02}}'\n"
       "  printf 'z,truth\\n158,161\\n164.2,162\\n' | ghtrack filter --g 0.6 --h 0.6667 --x0 160 "
       "--dx0 1 --json");
 }

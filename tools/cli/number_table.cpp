@@ -88,7 +88,11 @@ std::optional<double> NumberTable::cell(std::size_t column) const {
 }
 
 void NumberTable::fail(const std::string& message) const {
-  throw InputError(fmt::format("{}:{}: error: {}", printable(file_), line_number_, message));
+  throw InputError(fmt::format("{}: error: {}", place(line_number_), message));
+}
+
+std::string NumberTable::place(long line) const {
+  return fmt::format("{}:{}", printable(file_), line);
 }
 
 bool NumberTable::read_line() {

@@ -30,6 +30,10 @@ class NumberTable {
   /// @throws InputError if it is no number
   std::optional<double> cell(std::size_t column) const;
 
+  /// Number of the row's line in the file.
+  long line() const { return line_number_; }
+  /// "file:line", for messages.
+  std::string place(long line) const;
   [[noreturn]] void fail(const std::string& message) const;
 
  private:

@@ -10,6 +10,7 @@
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/writer.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/film/belief_plot.hpp"
 #include "tools/film/series_plot.hpp"
 #include "tools/pipeline/series.hpp"
 #include "tools/record/atomic_file.hpp"
@@ -37,6 +38,26 @@ std::string as_csv(const SeriesResult& result) {
     }
   }
   return csv.text();
+}
+
+/// What each histogram filter believes before and after each measurement; empty without any.
+std::string beliefs_as_csv(const SeriesResult& result) {
+  CsvRow csv;
+  bool has_beliefs = false;
+  for (const char* name : {"filter", "k", "place", "prior", "posterior"}) csv << name;
+  csv.end();
+  for (const SeriesTrack& track : result.tracks) {
+    for (std::size_t i = 0; i < track.beliefs.size(); ++i) {
+      const auto& [prior, posterior] = track.beliefs[i];
+      for (std::size_t place = 0; place < posterior.size(); ++place) {
+        csv << track.filter << track.rows[i].k << static_cast<int>(place) << prior[place]
+            << posterior[place];
+        csv.end();
+        has_beliefs = true;
+      }
+    }
+  }
+  return has_beliefs ? csv.text() : std::string();
 }
 
 ordered_json number(const std::optional<double>& value) {
@@ -84,6 +105,10 @@ void run_series(const SeriesScene& scene, ResultFolder& results) {
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", as_json(scene, result).dump(2) + "\n");
   write_file(folder / "series.csv", as_csv(result));
+  if (const std::string beliefs = beliefs_as_csv(result); !beliefs.empty()) {
+    write_file(folder / "belief.csv", beliefs);
+    write_file(folder / "belief.svg", film::belief_picture(scene, result));
+  }
   results.commit();
   print(as_table(result));
 }

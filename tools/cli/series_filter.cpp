@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
+#include "scenes/schema/configuration.hpp"
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tracker/filters/gains/analysis.hpp"
@@ -71,130 +73,155 @@ std::optional<Gains> constant_gains(const FilterCommandOptions& options) {
   return std::nullopt;
 }
 
-template <int Order, int D>
-KalmanFilter<Order, D> kalman(const FilterCommandOptions& options, const Kinematics<D>& guess) {
-  using Filter = KalmanFilter<Order, D>;
+/// One number for each axis; nothing if the text is empty.
+std::optional<std::vector<double>> parse_vector(const std::string& text, const char* option,
+                                                std::size_t axes) {
+  if (text.empty()) return std::nullopt;
+  std::vector<double> values(axes);
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const auto [next, error] = std::from_chars(at, end, values[axis]);
+    const bool ends_well = axis + 1 < axes ? next != end && *next == ',' : next == end;
+    if (error != std::errc{} || !ends_well || !std::isfinite(values[axis])) {
+      throw UsageError(
+          fmt::format("filter: {} is '{}'; needed are {} finite numbers, separated by commas",
+                      option, printable(text), axes));
+    }
+    at = next + (axis + 1 < axes ? 1 : 0);
+  }
+  return values;
+}
+
+/// A configuration as in a scene, {kind: {…}}, or a bare name whose short options fill the same.
+std::optional<AxisFilterConfig> configuration(const FilterCommandOptions& options) {
+  const std::string& text = options.filter;
+  if (text.find_first_of("{:") != std::string::npos) {
+    return schema::read_configuration_text<AxisFilterConfig>(text, "--filter");
+  }
+  if (text == LeastSquaresConfig::kind) return LeastSquaresConfig{need_order(options)};
+  if (text == ScalarKalmanConfig::kind) {
+    return ScalarKalmanConfig{.p0 = need_variance(options, options.p0, "--p0"),
+                              .q = need_variance(options, options.q, "--q"),
+                              .r = need_variance(options, options.r, "--r"),
+                              .u = options.u.value_or(0.0)};
+  }
+  if (text == KalmanCvConfig::kind || text == KalmanCaConfig::kind) return std::nullopt;
+  throw UsageError(fmt::format("filter: unknown filter '{}'{}", printable(text),
+                               hint(text, "filters", kFilters)));
+}
+
+/// The textbook's Kalman filter of --q and --r, whose random acceleration is new at every step.
+template <int Order>
+KalmanFilter<Order, 1> kalman(const FilterCommandOptions& options, double dt,
+                              const Kinematics<1>& guess, bool is_measured) {
+  using Filter = KalmanFilter<Order, 1>;
   const double noise = need_variance(options, options.r, "--r");
   const double process = need_variance(options, options.q, "--q");
   const double initial = options.p0 ? need_variance(options, options.p0, "--p0") : 1.0;
-  return Filter(
-      {.sigma = std::sqrt(noise), .interval = options.dt, .process_intensity = std::sqrt(process)},
-      guess, typename Filter::Covariance(initial * Filter::Covariance::Identity()));
-}
-
-int order_of(const FilterCommandOptions& options) {
-  if (const auto gains = constant_gains(options)) return gains->order;
-  if (options.filter == "least-squares") return need_order(options);
-  if (options.filter == "kalman-ca") return 2;
-  return options.filter == "kalman-1d" ? 0 : 1;
+  typename Filter::Covariance covariance = initial * Filter::Covariance::Identity();
+  if (is_measured) covariance(0, 0) = noise;
+  return Filter({.sigma = std::sqrt(noise), .interval = dt, .process_intensity = std::sqrt(process)},
+                guess, covariance);
 }
 
 }  // namespace
 
-template <int D>
-RandomWalkFilter<D>::RandomWalkFilter(const Vector& guess, double variance,
-                                      const Transition& transition, double noise)
-    : variance_(variance), transition_(transition), noise_(noise) {
-  estimate_.position = guess;
+FilterPlan::FilterPlan(const FilterCommandOptions& options, std::size_t axes)
+    : guess(axes), constant(constant_gains(options)) {
+  if (!constant) config = configuration(options);
+  order = constant ? constant->order
+          : config ? order_of(*config)
+                   : (options.filter == KalmanCaConfig::kind ? 2 : 1);
+  const auto x0 = parse_vector(options.x0, "--x0", axes);
+  const auto dx0 = parse_vector(options.dx0, "--dx0", axes);
+  const auto ddx0 = parse_vector(options.ddx0, "--ddx0", axes);
+  has_guess = x0.has_value();
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    if (x0) guess[axis].position[0] = (*x0)[axis];
+    if (dx0) guess[axis].velocity[0] = (*dx0)[axis];
+    if (ddx0) guess[axis].acceleration[0] = (*ddx0)[axis];
+  }
 }
 
-template <int D>
-bool RandomWalkFilter<D>::predict(double dt) {
+AxisFilters::AxisFilters(const FilterCommandOptions& options, const FilterPlan& plan,
+                           double dt, bool are_timed)
+    : options_(options), plan_(plan), dt_(dt), are_timed_(are_timed) {
   if (!(dt > 0.0) || !std::isfinite(dt)) {
-    ++refusals_.times;
-    return false;
+    throw UsageError(fmt::format("filter: --dt is {}; it must be positive", dt));
   }
-  for (int axis = 0; axis < D; ++axis) {
-    estimate_.position[axis] = predicted({estimate_.position[axis], variance_}, transition_).mean;
+  for (std::size_t axis = 0; axis < plan.guess.size(); ++axis) {
+    AxisFilter filter = make(axis, std::nullopt);
+    if (plan.has_guess) axes_.push_back(std::move(filter));
   }
-  variance_ = predicted({0.0, variance_}, transition_).variance;
-  return true;
 }
 
-template <int D>
-bool RandomWalkFilter<D>::update(const Vector& z) {
-  if (!z.allFinite()) {
-    ++refusals_.measurements;
-    return false;
+AxisFilter AxisFilters::make(std::size_t axis, const std::optional<double>& first) const {
+  Kinematics<1> guess = plan_.guess[axis];
+  if (first) guess.position[0] = *first;
+  if (plan_.constant) {
+    return GainFilter<1>(
+        *plan_.constant, dt_, guess, 1.0,
+        are_timed_ ? IrregularTime::kGainsFromCovariance : IrregularTime::kFixedGains);
   }
-  Gaussian posterior;
-  for (int axis = 0; axis < D; ++axis) {
-    posterior = updated({estimate_.position[axis], variance_}, z[axis], noise_).posterior;
-    estimate_.position[axis] = posterior.mean;
+  if (!plan_.config) {
+    return options_.filter == KalmanCaConfig::kind
+               ? AxisFilter(kalman<2>(options_, dt_, guess, first.has_value()))
+               : AxisFilter(kalman<1>(options_, dt_, guess, first.has_value()));
   }
-  variance_ = posterior.variance;
-  return true;
+  const double sigma =
+      options_.r ? std::sqrt(need_variance(options_, options_.r, "--r")) : 1.0;
+  // Least squares takes its derivatives from the guess until it knows better.
+  const bool has_guess = !first || std::holds_alternative<LeastSquaresConfig>(*plan_.config);
+  AxisFilter filter = make_axis_filter(*plan_.config, sigma, dt_,
+                                       has_guess ? std::optional(guess) : std::nullopt);
+  if (first) ghtrack::start(filter, *first);
+  return filter;
 }
 
-template <int D>
-SeriesFilterEngine<D>::SeriesFilterEngine(const FilterCommandOptions& options,
-                                          const Kinematics<D>& guess)
-    : filter_(make(options, guess)), order_(order_of(options)) {}
-
-template <int D>
-typename SeriesFilterEngine<D>::Any SeriesFilterEngine<D>::make(const FilterCommandOptions& options,
-                                                                const Kinematics<D>& guess) {
-  if (!(options.dt > 0.0) || !std::isfinite(options.dt)) {
-    throw UsageError(fmt::format("filter: --dt is {}; it must be positive", options.dt));
+void AxisFilters::start(const MeasuredRow& row) {
+  for (std::size_t axis = 0; axis < plan_.guess.size(); ++axis) {
+    axes_.push_back(make(axis, *row.z[axis]));
   }
-  if (const auto gains = constant_gains(options)) return GainFilter<D>(*gains, options.dt, guess);
-  if (options.filter == "least-squares") {
-    return LeastSquaresFilter<D>(need_order(options), options.dt, 1.0, guess);
-  }
-  if (options.filter == "kalman-cv") return kalman<1, D>(options, guess);
-  if (options.filter == "kalman-ca") return kalman<2, D>(options, guess);
-  if (options.filter == "kalman-1d") {
-    const Transition transition{.control = options.u.value_or(0.0),
-                                .process_variance = need_variance(options, options.q, "--q")};
-    return RandomWalkFilter<D>(guess.position, need_variance(options, options.p0, "--p0"),
-                               transition, need_variance(options, options.r, "--r"));
-  }
-  throw UsageError(fmt::format("filter: unknown filter '{}'{}", printable(options.filter),
-                               hint(options.filter, "filters", kFilters)));
 }
 
-template <int D>
-bool SeriesFilterEngine<D>::predict(double dt) {
-  return std::visit([&](auto& filter) { return filter.predict(dt); }, filter_);
-}
-
-template <int D>
-bool SeriesFilterEngine<D>::update(const Vector& z, std::optional<double> g,
-                                   std::optional<double> h, std::optional<double> k) {
-  auto* gain_filter = std::get_if<GainFilter<D>>(&filter_);
-  if (!g && !h && !k) {
-    return std::visit([&](auto& filter) { return filter.update(z); }, filter_);
+bool AxisFilters::predict(double dt) {
+  bool predicted = true;
+  for (AxisFilter& axis : axes_) {
+    predicted = std::visit([dt](auto& filter) { return filter.predict(dt); }, axis) && predicted;
   }
-  if (gain_filter == nullptr) {
-    throw UsageError("filter: columns g, h and k are for filters with constant gains");
+  return predicted;
+}
+
+bool AxisFilters::update(const std::vector<double>& z, const MeasuredRow& row) {
+  bool used = true;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const Kinematics<1>::Vector measured(z[i]);
+    if (!row.g && !row.h && !row.k) {
+      used = std::visit([&](auto& filter) { return filter.update(measured); }, axes_[i]) && used;
+      continue;
+    }
+    auto* const filter = std::get_if<GainFilter<1>>(&axes_[i]);
+    if (filter == nullptr) {
+      throw UsageError("filter: columns g, h and k are for filters with constant gains");
+    }
+    Gains gains = filter->steady_gains();
+    gains.g = row.g.value_or(gains.g);
+    gains.h = row.h.value_or(gains.h);
+    gains.k = row.k.value_or(gains.k);
+    used = filter->update(measured, gains) && used;
   }
-  Gains gains = gain_filter->steady_gains();
-  gains.g = g.value_or(gains.g);
-  gains.h = h.value_or(gains.h);
-  gains.k = k.value_or(gains.k);
-  return gain_filter->update(z, gains);
+  return used;
 }
 
-template <int D>
-const Kinematics<D>& SeriesFilterEngine<D>::estimate() const {
-  return std::visit([](const auto& filter) -> const Kinematics<D>& { return filter.estimate(); },
-                    filter_);
+const Kinematics<1>& AxisFilters::estimate(std::size_t axis) const {
+  return std::visit([](const auto& filter) -> const Kinematics<1>& { return filter.estimate(); },
+                    axes_[axis]);
 }
 
-template <int D>
-Refusals SeriesFilterEngine<D>::refusals() const {
-  return std::visit([](const auto& filter) { return Refusals(filter.refusals()); }, filter_);
-}
-
-template class SeriesFilterEngine<1>;
-template class SeriesFilterEngine<2>;
-template class SeriesFilterEngine<3>;
-
-void warn_of_unstable_gains(const FilterCommandOptions& options, bool quiet) {
-  const auto gains = constant_gains(options);
-  const auto violated = gains ? violated_inequality(*gains) : std::nullopt;
-  if (!violated || quiet) return;
-  fmt::print(stderr, "ghtrack: warning: these gains are unstable: {} does not hold\n", *violated);
+Refusals AxisFilters::refusals() const {
+  if (axes_.empty()) return {};
+  return std::visit([](const auto& filter) { return filter.refusals(); }, axes_.front());
 }
 
 }  // namespace ghtrack::cli

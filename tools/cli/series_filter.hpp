@@ -1,75 +1,57 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <optional>
-#include <variant>
+#include <vector>
 
 #include "tools/cli/commands.hpp"
-#include "tracker/filters/gain_filter.hpp"
-#include "tracker/filters/gaussian.hpp"
-#include "tracker/filters/kalman_filter.hpp"
-#include "tracker/filters/least_squares_filter.hpp"
+#include "tools/cli/series_rows.hpp"
+#include "tracker/filters/axis_filter.hpp"
 
 namespace ghtrack::cli {
 
-/// The one-dimensional Kalman filter x = x + u + w of `--filter kalman-1d`, on each axis.
-template <int D>
-class RandomWalkFilter {
- public:
-  using Vector = Eigen::Matrix<double, D, 1>;
+/// What `ghtrack filter` is asked for, made sense of before the first row is read.
+struct FilterPlan {
+  /// @throws UsageError if the options do not fit the filter
+  /// @throws SceneError if --filter is a configuration with faults
+  FilterPlan(const FilterCommandOptions& options, std::size_t axes);
 
-  RandomWalkFilter(const Vector& guess, double variance, const Transition& transition,
-                   double noise);
-
-  bool predict(double dt);
-  bool update(const Vector& z);
-  const Kinematics<D>& estimate() const { return estimate_; }
-  Refusals refusals() const { return refusals_; }
-
- private:
-  Kinematics<D> estimate_;
-  double variance_;
-  Transition transition_;
-  double noise_;
-  Refusals refusals_;
+  bool has_guess = false;
+  std::vector<Kinematics<1>> guess;        // by axis; derivatives without --x0, too
+  std::optional<Gains> constant;           // for filters that are nothing but gains
+  std::optional<AxisFilterConfig> config;  // of any other that is configured as in a scene
+  int order = 1;
 };
 
-/// The filter that the options of `ghtrack filter` ask for, on D axes.
-template <int D>
-class SeriesFilterEngine {
+/// The filter that the options of `ghtrack filter` ask for: one for each axis, as its axes do not
+/// know of each other.
+class AxisFilters {
  public:
-  using Vector = Eigen::Matrix<double, D, 1>;
+  /// @param dt         nominal time between rows [s]
+  /// @param are_timed  rows have times of their own: constant gains are meant for dt
+  AxisFilters(const FilterCommandOptions& options, const FilterPlan& plan, double dt,
+               bool are_timed);
 
-  /// @throws UsageError if the options do not fit the filter
-  SeriesFilterEngine(const FilterCommandOptions& options, const Kinematics<D>& guess);
-
-  /// The highest derivative that the filter carries.
-  int order() const { return order_; }
-
+  bool is_started() const { return !axes_.empty(); }
+  /// Takes the first measurements as the positions.
+  void start(const MeasuredRow& row);
   bool predict(double dt);
-
-  /// Corrects with a measurement; g, h and k replace the filter's own gains for once.
+  /// Corrects with the row's measurements; its g, h and k replace the filter's gains for once.
+  /// @param z  by axis
   /// @throws UsageError if the filter has no such gains
-  bool update(const Vector& z, std::optional<double> g, std::optional<double> h,
-              std::optional<double> k);
+  bool update(const std::vector<double>& z, const MeasuredRow& row);
 
-  const Kinematics<D>& estimate() const;
+  const Kinematics<1>& estimate(std::size_t axis) const;
   Refusals refusals() const;
 
  private:
-  using Any = std::variant<GainFilter<D>, LeastSquaresFilter<D>, KalmanFilter<1, D>,
-                           KalmanFilter<2, D>, RandomWalkFilter<D>>;
-  static Any make(const FilterCommandOptions& options, const Kinematics<D>& guess);
+  AxisFilter make(std::size_t axis, const std::optional<double>& first) const;
 
-  Any filter_;
-  int order_;
+  const FilterCommandOptions& options_;
+  const FilterPlan& plan_;
+  double dt_;
+  bool are_timed_;
+  std::vector<AxisFilter> axes_;
 };
-
-extern template class SeriesFilterEngine<1>;
-extern template class SeriesFilterEngine<2>;
-extern template class SeriesFilterEngine<3>;
-
-/// A remark on standard error if the gains asked for are unstable: exploring them is allowed.
-void warn_of_unstable_gains(const FilterCommandOptions& options, bool quiet);
 
 }  // namespace ghtrack::cli

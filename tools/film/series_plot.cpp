@@ -2,6 +2,7 @@
 
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace ghtrack::film {
 namespace {
@@ -36,8 +37,10 @@ render::Plot plot_of(const SeriesScene& scene, const SeriesResult& result) {
     }
     plot.series.push_back(std::move(truth));
   }
-  plot.series.push_back(
-      curve(first, PlotSeries::Style::kMeasurement, "measurements", 0, &SeriesRow::z));
+  if (!std::holds_alternative<WalkSeries>(scene.data)) {  // whose readings are not places
+    plot.series.push_back(
+        curve(first, PlotSeries::Style::kMeasurement, "measurements", 0, &SeriesRow::z));
+  }
   int index = 0;
   for (const SeriesTrack& track : result.tracks) {
     if (result.tracks.size() <= kMostWithPredictions) {

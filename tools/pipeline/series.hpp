@@ -20,12 +20,18 @@ struct SeriesRow {
   double x = 0.0, dx = 0.0, ddx = 0.0;                 // posterior
 };
 
+/// What a histogram filter believes at one measurement, place by place.
+struct SeriesBelief {
+  discrete_bayes::Belief prior, posterior;
+};
+
 /// One filter's way through the series.
 struct SeriesTrack {
   std::string filter;  // name in the scene
   std::string gains;   // "g=0.2 h=0.02"
   int order = 1;
   std::vector<SeriesRow> rows;
+  std::vector<SeriesBelief> beliefs;  // of a histogram filter, as many
   std::optional<double> rmse;  // √ mean (x − truth)², over all rows
   std::optional<double>
       rmse_without_guess;  // the same without a first row that is the guess itself

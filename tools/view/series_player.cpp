@@ -10,10 +10,12 @@
 namespace ghtrack::view {
 namespace {
 
+/// Of a filter without gains those of a g-h filter, should it become one.
 SeriesGhk gains_of(const SeriesModel& model) {
   if (const auto* ghk = std::get_if<SeriesGhk>(&model)) return *ghk;
-  const auto& gh = std::get<SeriesGh>(model);
-  return {.ddx0 = 0.0, .g = gh.g, .h = gh.h, .k = 0.0};
+  const auto* const gh = std::get_if<SeriesGh>(&model);
+  const SeriesGh gains = gh != nullptr ? *gh : SeriesGh();
+  return {.ddx0 = 0.0, .g = gains.g, .h = gains.h, .k = 0.0};
 }
 
 /// A knob whose ends hold its value.

@@ -38,9 +38,7 @@ AxisCovariance<double> piecewise_constant(int order, double variance, double t) 
   return q;
 }
 
-}  // namespace
-
-AxisCovariance<double> process_noise(ProcessModel model, int order, double intensity, double dt) {
+AxisCovariance<double> one_step(ProcessModel model, int order, double intensity, double dt) {
   switch (model) {
     case ProcessModel::kPiecewiseConstant:
       return piecewise_constant(order, intensity * intensity, dt);
@@ -50,6 +48,47 @@ AxisCovariance<double> process_noise(ProcessModel model, int order, double inten
       return white_noise(order, intensity, dt);
   }
   return {};
+}
+
+/// Σ F(iT) Q F(iT)ᵀ for i = 0 … n − 1, in closed form and so for any n ≥ 1. [t] = T
+AxisCovariance<double> many_steps(const AxisCovariance<double>& q, double t, double n) {
+  const double s1 = n * (n - 1.0) / 2.0;                          // Σ i
+  const double s2 = s1 * (2.0 * n - 1.0) / 3.0;                   // Σ i²
+  const double s3 = s1 * s1;                                      // Σ i³
+  const double s4 = s2 * (3.0 * n * n - 3.0 * n - 1.0) / 5.0;     // Σ i⁴
+  const double t2 = t * t;
+  return {.xx = n * q.xx + 2.0 * s1 * t * q.xv + s2 * t2 * (q.vv + q.xa) + s3 * t * t2 * q.va +
+                0.25 * s4 * t2 * t2 * q.aa,
+          .xv = n * q.xv + s1 * t * (q.vv + q.xa) + 1.5 * s2 * t2 * q.va +
+                0.5 * s3 * t * t2 * q.aa,
+          .xa = n * q.xa + s1 * t * q.va + 0.5 * s2 * t2 * q.aa,
+          .vv = n * q.vv + 2.0 * s1 * t * q.va + s2 * t2 * q.aa,
+          .va = n * q.va + s1 * t * q.aa,
+          .aa = n * q.aa};
+}
+
+AxisCovariance<double> scaled(const AxisCovariance<double>& q, double n) {
+  return {n * q.xx, n * q.xv, n * q.xa, n * q.vv, n * q.va, n * q.aa};
+}
+
+}  // namespace
+
+AxisCovariance<double> process_noise(ProcessModel model, int order, double intensity, double dt,
+                                     double renewal) {
+  constexpr double kSameInterval = 1e-6;  // times are rounded
+  const double n = dt / renewal;
+  const bool is_one = std::isinf(renewal) || std::abs(n - 1.0) <= kSameInterval;
+  if (is_one || model == ProcessModel::kWhiteNoise || !std::isfinite(n)) {
+    return one_step(model, order, intensity, dt);
+  }
+  if (n > 1.0) return many_steps(one_step(model, order, intensity, renewal), renewal, n);
+  // Its share: the variance of the highest derivative grows at the same pace. For order 0 that is
+  // the position, for a random walk whatever jumps.
+  if (order == 2) return scaled(one_step(model, order, intensity, dt), n);
+  if (order == 1 && model == ProcessModel::kPiecewiseConstant) {
+    return scaled(one_step(model, order, intensity, dt), 1.0 / n);
+  }
+  return scaled(one_step(model, order, intensity, renewal), n);
 }
 
 double intensity_of_index(ProcessModel model, double index, double sigma, double dt) {

@@ -1,77 +1,53 @@
 #include "tracker/filters/filter.hpp"
 
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <stdexcept>
+#include <numbers>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "tracker/filters/filter_design.hpp"
+
 namespace ghtrack {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-
-/// How the gains of a rule follow the interval, and the process noise that it assumes.
-template <int Order>
-void apply_rule(const gain_design::TrackingIndex<Order>& rule, GainSchedule& schedule,
-                ErrorModel& errors) {
-  const double index = rule.index_at(errors.sigma, schedule.interval);
-  schedule.law = IndexLaw{index, rule.model};
-  errors.process_model = rule.model;
-  errors.process_intensity = intensity_of_index(rule.model, index, errors.sigma, schedule.interval);
-}
-
-void apply_rule(const auto& rule, GainSchedule& schedule, ErrorModel&) {
-  if constexpr (requires { rule.theta; }) schedule.law = MemoryLaw{rule.theta};
-}
-
-void require_stable(const Gains& gains) {
-  if (const auto violated = violated_inequality(gains)) {
-    throw std::invalid_argument("unstable gains " + to_text(gains) + ": " + std::string(*violated) +
-                                " does not hold");
-  }
-}
-
 template <int Order>
 SingleFilter make(const GainFilterConfig<Order>& config, double sigma, double dt) {
-  GainSchedule schedule{.interval = dt,
-                        .source = config.source(),
-                        .start_up = config.start_up.value_or(StartUp::kGrowingMemory)};
-  ErrorModel errors{.sigma = sigma,
-                    .initial_speed = config.initial_speed,
-                    .initial_acceleration = config.initial_acceleration,
-                    .huber = config.huber.value_or(kNoLimit)};
-  std::visit(
-      [&](const auto& rule) {
-        schedule.steady = rule.gains(sigma, dt);
-        apply_rule(rule, schedule, errors);
-      },
-      config.design);
-  require_stable(schedule.steady);
-  schedule.irregular_time = config.irregular_time.value_or(
-      config.has_time_scale() ? IrregularTime::kGainsFromElapsed : IrregularTime::kFixedGains);
-  if (config.allowed_acceleration) {
-    errors.process_model = ProcessModel::kPiecewiseConstant;
-    errors.process_intensity = *config.allowed_acceleration;
-  }
-  return GainFilter<2>(schedule, errors);
+  const GainDesign design = designed(config, sigma, dt);
+  return GainFilter<2>(design.schedule, design.errors);
 }
 
 template <int Order>
 SingleFilter make(const KalmanConfig<Order>& config, double sigma, double dt) {
-  KalmanModel model{.sigma = sigma,
-                    .interval = dt,
-                    .initial_speed = config.initial_speed,
-                    .initial_acceleration = config.initial_acceleration,
-                    .huber = config.huber.value_or(kNoLimit)};
-  std::visit(
-      [&model](const auto& process) {
-        model.process_model = process.model;
-        model.process_intensity = process.intensity();
-      },
-      config.model);
-  return KalmanFilter<Order, 2>(model);
+  return KalmanFilter<Order, 2>(designed(config, sigma, dt));
+}
+
+template <Propagation Way>
+SingleFilter make(const MotionFilterConfig<Way>& config, double sigma, double dt) {
+  return equivalent_motion(config, sigma, dt);
+}
+
+/// From one that hardly manoeuvres to one that follows the measurements.
+std::map<std::string, SingleFilterConfig> bank_of_indices() {
+  std::map<std::string, SingleFilterConfig> bank;
+  const std::array<std::pair<const char*, double>, 3> indices = {
+      {{"steady", 0.01}, {"turning", 0.3}, {"nimble", 10.0}}};
+  for (const auto& [name, index] : indices) {
+    bank[name] = GhConfig{.design = gain_design::TrackingIndex<1>{.index = index}};
+  }
+  return bank;
+}
+
+ImmFilter make(const ImmConfig& config, double sigma, double dt) {
+  std::vector<ImmFilter::Mode> modes;
+  for (const auto& [label, filter] : config.filters.empty() ? bank_of_indices() : config.filters) {
+    modes.push_back({label, equivalent_motion(filter, sigma, dt)});
+  }
+  return ImmFilter(std::move(modes), config.switching);
 }
 
 MultipleModelFilter make(const MultipleModelConfig& config, double sigma, double dt) {
@@ -86,20 +62,15 @@ MultipleModelFilter make(const MultipleModelConfig& config, double sigma, double
 }  // namespace
 
 Filter make_filter(const FilterConfig& config, double sigma, double dt) {
-  if (!(sigma > 0.0) || !std::isfinite(sigma)) {
-    throw std::invalid_argument("a filter needs a positive measurement error");
-  }
-  if (!(dt > 0.0) || !std::isfinite(dt)) {
-    throw std::invalid_argument("a filter needs a positive time between updates");
-  }
+  require_measurable(sigma, dt);
   return std::visit(
       [&](const auto& chosen) {
         const auto widened = [](auto&& made) { return Filter(std::forward<decltype(made)>(made)); };
         const auto made = make(chosen, sigma, dt);
-        if constexpr (std::is_same_v<decltype(made), const MultipleModelFilter>) {
-          return widened(made);
-        } else {
+        if constexpr (std::is_same_v<decltype(made), const SingleFilter>) {
           return std::visit(widened, made);
+        } else {
+          return widened(made);
         }
       },
       config);
@@ -119,6 +90,27 @@ bool update(Filter& filter, const Eigen::Vector2d& z) {
 
 bool update(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& covariance) {
   return std::visit([&](auto& f) { return f.update(z, covariance); }, filter);
+}
+
+bool update(Filter& filter, const Detection& detection) {
+  return std::visit(
+      [&](auto& f) {
+        if constexpr (requires { f.update(*detection.measured); }) {
+          if (detection.measured && f.is_started()) return f.update(*detection.measured);
+        }
+        return f.update(detection.position, detection.covariance);
+      },
+      filter);
+}
+
+std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d& z,
+                                     const Eigen::Matrix2d& covariance) {
+  const Eigen::Matrix2d s = innovation_covariance(filter, covariance);
+  const double determinant = s.determinant();
+  if (!(determinant > 0.0)) return std::nullopt;
+  const Eigen::Vector2d r = z - estimate(filter).position;
+  const double nis = r.dot(s.inverse() * r);
+  return -0.5 * (nis + std::log(determinant)) - std::log(2.0 * std::numbers::pi);
 }
 
 void coast(Filter& filter) {
@@ -166,6 +158,10 @@ Eigen::Vector2d noise_sigma(const Filter& filter) {
   return position_sigma(filter);
 }
 
+Eigen::Matrix2d position_covariance(const Filter& filter) {
+  return innovation_covariance(filter, Eigen::Matrix2d::Zero());
+}
+
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement) {
   return std::visit([&](const auto& f) { return f.innovation_covariance(measurement); }, filter);
 }
@@ -179,8 +175,9 @@ std::string_view name(const Filter& filter) {
 }
 
 std::string_view model_name(const Filter& filter) {
-  const auto* several = std::get_if<MultipleModelFilter>(&filter);
-  return several != nullptr ? several->leader().name : std::string_view();
+  if (const auto* several = std::get_if<MultipleModelFilter>(&filter)) return several->leader().name;
+  if (const auto* mixed = std::get_if<ImmFilter>(&filter)) return mixed->leader().name;
+  return {};
 }
 
 const GainFilter<2>* designed_gain_filter(const Filter& filter) {

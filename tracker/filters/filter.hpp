@@ -7,8 +7,10 @@
 #include <string_view>
 #include <variant>
 
+#include "sensors/detection.hpp"
 #include "tracker/filters/filter_config.hpp"
 #include "tracker/filters/gain_filter.hpp"
+#include "tracker/filters/imm_filter.hpp"
 #include "tracker/filters/kalman_filter.hpp"
 #include "tracker/filters/multiple_model.hpp"
 
@@ -45,8 +47,8 @@ template <class... Fs>
 inline constexpr bool all_are_planar_filters<std::variant<Fs...>> = (PlanarFilter<Fs> && ...);
 
 /// One object's filter.
-using Filter =
-    std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>, MultipleModelFilter>;
+using Filter = std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>, MotionFilter,
+                            MultipleModelFilter, ImmFilter>;
 static_assert(all_are_planar_filters<Filter>,
               "every alternative of Filter needs the operations of PlanarFilter");
 
@@ -63,6 +65,12 @@ bool start(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& cova
 bool predict(Filter& filter, double dt);
 bool update(Filter& filter, const Eigen::Vector2d& z);
 bool update(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& covariance);
+/// With what the sensor measured, by filters that can make use of it; the others take the position.
+bool update(Filter& filter, const Detection& detection);
+/// ln N(r; 0, S) of the residual that this measurement has at estimate(), S as in
+/// innovation_covariance(); nothing if S is singular.
+std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d& z,
+                                     const Eigen::Matrix2d& covariance);
 void coast(Filter& filter);
 
 bool is_started(const Filter& filter);
@@ -82,6 +90,8 @@ Eigen::Vector2d position_sigma(const Filter& filter);
 /// models as the leading one assumes. A Kalman filter cannot tell: its error and its allowance for
 /// manoeuvres are one.
 Eigen::Vector2d noise_sigma(const Filter& filter);
+/// Covariance of the position's error: before update() of the predicted one [m²].
+Eigen::Matrix2d position_covariance(const Filter& filter);
 /// Covariance of the residual that a measurement would have after predict() [m²].
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement);
 Eigen::Matrix2d innovation_covariance(const Filter& filter);

@@ -11,6 +11,8 @@
 
 #include "tracker/filters/gain_schedule.hpp"
 #include "tracker/filters/gains/design.hpp"
+#include "tracker/filters/motion.hpp"
+#include "tracker/filters/motion_filter.hpp"
 
 namespace ghtrack {
 
@@ -46,8 +48,10 @@ struct GainFilterConfig {
                           "first two points, or none"});
     }
     v.field("irregular_time", &GainFilterConfig::irregular_time,
-            {.meaning = "how gains in a table follow uneven times and misses; by default "
-                        "gains-from-elapsed where the design has a time scale, else fixed-gains"});
+            {.meaning = "what gains in a table mean at uneven times; gains-from-covariance (the "
+                        "default): the gains of the Kalman filter whose process noise they imply, "
+                        "until scans are on time again; fixed-gains: the textbook's, which go "
+                        "astray where scans nearly coincide"});
     v.field("allowed_acceleration", &GainFilterConfig::allowed_acceleration,
             {.unit = "m/s²",
              .meaning = "1-sigma acceleration that the predicted error and the gate allow for; by "
@@ -83,11 +87,12 @@ struct GainFilterConfig {
       report("schedule",
              "start_up, irregular_time and allowed_acceleration are for the schedule table");
     }
-    if (!irregular_time || *irregular_time == IrregularTime::kFixedGains || has_time_scale())
-      return;
+    const bool needs_time_scale = irregular_time == IrregularTime::kGainsFromInterval ||
+                                  irregular_time == IrregularTime::kGainsFromElapsed;
+    if (!needs_time_scale || has_time_scale()) return;
     report("irregular_time",
-           "gains can follow the time only for the designs tracking-index, fading-memory and "
-           "critical-damping; use fixed-gains");
+           "the design has a rule for other intervals only if it is tracking-index, fading-memory "
+           "or critical-damping; use gains-from-covariance");
   }
 
   GainSource source() const {
@@ -216,9 +221,63 @@ struct KalmanConfig {
 using KalmanCvConfig = KalmanConfig<1>;
 using KalmanCaConfig = KalmanConfig<2>;
 
+namespace motion {
+
+/// How a target moves, as a scene says it: {ekf: {motion: coordinated-turn}}.
+template <int Order>
+struct NearlyConstant {
+  static constexpr std::string_view kind =
+      Order == 1 ? "constant-velocity" : "constant-acceleration";
+  static constexpr std::string_view about = Order == 1 ? "Moves at a nearly constant velocity."
+                                                       : "Moves at a nearly constant acceleration.";
+  double spectral_density = 1.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("spectral_density", &NearlyConstant::spectral_density,
+            {.unit = Order == 1 ? "m²/s³" : "m²/s⁵",
+             .meaning = "power of the white noise in its derivative",
+             .minimum = 0.0});
+  }
+};
+
+}  // namespace motion
+
+/// An extended or unscented Kalman filter as a scene says it.
+template <Propagation Way>
+struct MotionFilterConfig {
+  static constexpr std::string_view kind = Way == Propagation::kExtended ? "ekf" : "ukf";
+  static constexpr std::string_view about =
+      Way == Propagation::kExtended
+          ? "Extended Kalman filter: any motion, and what a radar or a camera measured as it is."
+          : "Unscented Kalman filter: the same without derivatives.";
+
+  std::variant<motion::NearlyConstant<1>, motion::NearlyConstant<2>, CoordinatedTurn, Ballistic>
+      motion = {};
+  double initial_speed = 30.0;
+  double initial_acceleration = 20.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.tagged("motion", &MotionFilterConfig::motion, {.meaning = "how the target moves"});
+    v.field("initial_speed", &MotionFilterConfig::initial_speed,
+            {.unit = "m/s",
+             .meaning = "1-sigma velocity per axis of a target seen once",
+             .above = 0.0});
+    v.field("initial_acceleration", &MotionFilterConfig::initial_acceleration,
+            {.unit = "m/s²",
+             .meaning = "1-sigma acceleration per axis of a target seen once, for "
+                        "constant-acceleration",
+             .above = 0.0});
+  }
+};
+
+using EkfConfig = MotionFilterConfig<Propagation::kExtended>;
+using UkfConfig = MotionFilterConfig<Propagation::kUnscented>;
+
 /// One filter. Add yours here, and its filter to SingleFilter.
-using SingleFilterConfig =
-    std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig, KalmanCaConfig>;
+using SingleFilterConfig = std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig,
+                                        KalmanCaConfig, EkfConfig, UkfConfig>;
 
 /// Several filters side by side as a scene says it: {multiple-model: {filters: {…}}}.
 struct MultipleModelConfig {
@@ -247,8 +306,42 @@ struct MultipleModelConfig {
   }
 };
 
+/// Interacting filters as a scene says it: {imm: {filters: {…}}}.
+struct ImmConfig {
+  static constexpr std::string_view kind = "imm";
+  static constexpr std::string_view about =
+      "Interacting multiple models: filters whose states are mixed before each step, for a target "
+      "that changes how it moves.";
+
+  std::map<std::string, SingleFilterConfig> filters;  // by a name of your choice
+  double switching = 0.05;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("filters", &ImmConfig::filters,
+            {.meaning = "filters by a name of your choice; of designed ones the process noise that "
+                        "they imply counts; without any three g-h filters from steady to nimble, "
+                        "with tracking indices 0.01, 0.3 and 10"});
+    v.field("switching", &ImmConfig::switching,
+            {.unit = "1",
+             .meaning = "probability that from one scan to the next the target begins to move as "
+                        "another filter assumes",
+             .minimum = 0.0,
+             .maximum = 0.5});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    for (const auto& [name, filter] : filters) {
+      if (std::holds_alternative<Order0Config>(filter)) {
+        report("filters", "an order0 filter has no velocity to mix: make '" + name + "' a gh");
+      }
+    }
+  }
+};
+
 /// What a scene may ask for.
 using FilterConfig = std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig, KalmanCaConfig,
-                                  MultipleModelConfig>;
+                                  EkfConfig, UkfConfig, MultipleModelConfig, ImmConfig>;
 
 }  // namespace ghtrack

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "tracker/filters/gains/analysis.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -29,6 +31,18 @@ bool reaches(const Gains& large, const Gains& small) {
   return large.g >= small.g && large.h >= small.h && large.k >= small.k;
 }
 
+bool is_near(double value, double goal) {
+  constexpr double kSettled = 0.01;
+  return std::abs(value - goal) <= kSettled * goal;
+}
+
+/// The best gain for an error known: Kalman's, on each axis.
+template <class Axes>
+AxisGain<Axes> optimal_gain(const AxisCovariance<Axes>& p, const Axes& variance) {
+  const Axes total = (p.xx + variance).max(std::numeric_limits<double>::min());
+  return {p.xx / total, p.xv / total, p.xa / total};
+}
+
 Gains larger(const Gains& a, const Gains& b) {
   return {a.order, std::max(a.g, b.g), std::max(a.h, b.h), std::max(a.k, b.k)};
 }
@@ -39,15 +53,33 @@ template <int D>
 GainFilter<D>::GainFilter(const GainSchedule& schedule, const ErrorModel& errors)
     : schedule_(schedule),
       errors_(errors),
-      covariance_(on_all_axes<Axes>({})),
-      noise_(covariance_),
+      settled_{},
+      belief_(on_all_axes<Axes>({})),
+      covariance_(belief_),
+      noise_(belief_),
       used_{schedule.steady, schedule.interval},
-      interval_(schedule.interval) {}
+      interval_(schedule.interval) {
+  has_belief_ = schedule.source == GainSource::kTable && is_stable(schedule.steady) &&
+                (schedule.irregular_time == IrregularTime::kGainsFromCovariance ||
+                 std::isfinite(errors.huber));
+  if (!has_belief_) return;
+  implied_ = implied_noise(schedule.steady, errors.sigma, schedule.interval);
+  settled_ = steady_covariance(implied_, schedule.steady.order, errors.sigma, schedule.interval);
+}
 
 template <int D>
-GainFilter<D>::GainFilter(const Gains& gains, double dt, const Kinematics<D>& guess, double sigma)
-    : GainFilter(GainSchedule{.steady = gains, .interval = dt, .start_up = StartUp::kNone},
+GainFilter<D>::GainFilter(const Gains& gains, double dt, const Kinematics<D>& guess, double sigma,
+                          IrregularTime irregular_time)
+    : GainFilter(GainSchedule{.steady = gains,
+                              .interval = dt,
+                              .start_up = StartUp::kNone,
+                              .irregular_time = irregular_time},
                  ErrorModel{.sigma = sigma}) {
+  start_from(guess);
+}
+
+template <int D>
+void GainFilter<D>::start_from(const Kinematics<D>& guess) {
   prior_ = guess;
   estimate_ = guess;
   started_ = true;
@@ -78,12 +110,13 @@ bool GainFilter<D>::start(const Vector& z, const Matrix& covariance) {
   if (order >= 2) {
     covariance_.aa.setConstant(errors_.initial_acceleration * errors_.initial_acceleration);
   }
-  noise_ = covariance_;
+  belief_ = noise_ = covariance_;
   elapsed_ = 0.0;
   updates_ = 1;
   misses_ = 0;
   started_ = true;
   starting_up_ = schedule_.start_up != StartUp::kNone;
+  on_schedule_ = true;
   return true;
 }
 
@@ -93,13 +126,15 @@ bool GainFilter<D>::predict(double dt) {
   AxisCovariance<Axes> covariance = extrapolated(covariance_, dt);
   if (errors_.process_intensity > 0.0) {
     covariance += on_all_axes<Axes>(process_noise(errors_.process_model, schedule_.steady.order,
-                                                  errors_.process_intensity, dt));
+                                                  errors_.process_intensity, dt,
+                                                  errors_.renewal));
   }
   if (!(dt > 0.0) || !std::isfinite(dt) || !next.is_finite() || !is_finite(covariance)) {
     ++refusals_.times;
     return false;
   }
   if (!started_) return true;
+  if (has_belief_) carry_belief(dt);
   prior_ = estimate_ = next;
   covariance_ = covariance;
   noise_ = extrapolated(noise_, dt);
@@ -109,10 +144,55 @@ bool GainFilter<D>::predict(double dt) {
   return true;
 }
 
+/// While the steady gains of the table are due, the belief is known beforehand.
+template <int D>
+void GainFilter<D>::carry_belief(double dt) {
+  const bool on_time = schedule_.irregular_time != IrregularTime::kGainsFromCovariance ||
+                       schedule_.is_nominal(dt);
+  if (is_steady() && on_time) return;
+  if (!on_time) leave_schedule();
+  belief_ = extrapolated(belief_, dt);
+  belief_ += on_all_axes<Axes>(implied_.over(dt));
+}
+
+/// What the steady gains take the error to be now.
+template <int D>
+auto GainFilter<D>::settled_belief() const -> AxisCovariance<Axes> {
+  AxisCovariance<double> p = settled_;
+  if (elapsed_ > 0.0) {
+    p = extrapolated(p, elapsed_);
+    p += implied_.over(elapsed_);
+  }
+  return on_all_axes<Axes>(p);
+}
+
+/// From here on the gains follow belief_.
+template <int D>
+void GainFilter<D>::leave_schedule() {
+  if (is_steady()) belief_ = settled_belief();
+  on_schedule_ = false;
+}
+
+/// The table's steady gains are due again when they are as good as those of belief_.
+template <int D>
+void GainFilter<D>::return_to_schedule() {
+  for (int axis = 0; axis < D; ++axis) {
+    if (!is_near(belief_.xx[axis], settled_.xx) || !is_near(belief_.vv[axis], settled_.vv) ||
+        !is_near(belief_.aa[axis], settled_.aa)) {
+      return;
+    }
+  }
+  on_schedule_ = true;
+  starting_up_ = false;
+}
+
 /// The gains that are due, and the time that they count from.
 template <int D>
 auto GainFilter<D>::scheduled() const -> Scheduled {
-  const bool from_elapsed = schedule_.irregular_time == IrregularTime::kGainsFromElapsed;
+  const bool has_law = !std::holds_alternative<ConstantLaw>(schedule_.law);
+  const bool from_elapsed =
+      schedule_.irregular_time == IrregularTime::kGainsFromElapsed ||
+      (schedule_.irregular_time == IrregularTime::kGainsFromCovariance && has_law);
   const double interval = from_elapsed ? elapsed_ : interval_;
   const Gains steady = schedule_.irregular_time == IrregularTime::kFixedGains
                            ? schedule_.steady
@@ -125,32 +205,52 @@ auto GainFilter<D>::scheduled() const -> Scheduled {
   return {larger(start_up_gains(order, n), steady), elapsed_};
 }
 
-/// The best gain for the error known so far: Kalman's, on each axis.
-template <int D>
-auto GainFilter<D>::optimal_gain(const Axes& variance) const -> AxisGain<Axes> {
-  const Axes total = (covariance_.xx + variance).max(std::numeric_limits<double>::min());
-  return {covariance_.xx / total, covariance_.xv / total, covariance_.xa / total};
-}
-
 template <int D>
 auto GainFilter<D>::as_scheduled(const AxisGain<Axes>& gain) const -> Scheduled {
   const double t = interval_;
   return {{schedule_.steady.order, gain.x[0], gain.v[0] * t, 0.5 * gain.a[0] * t * t}, t};
 }
 
+/// Is the residual beyond the Huber limit, and to be shortened? It says nothing of outliers before
+/// all derivatives are known, and one that repeats itself on the same side is no outlier: the target
+/// has moved otherwise than believed.
+template <int D>
+bool GainFilter<D>::doubts(const Vector& residual, const AxisCovariance<Axes>& belief,
+                           const Axes& variance) {
+  constexpr int kMostInARow = 2;
+  if (!std::isfinite(errors_.huber) || updates_ <= schedule_.steady.order) return false;
+  const double squared = (residual.array().square() / (belief.xx + variance)).sum();
+  const bool is_far = squared > errors_.huber * errors_.huber;
+  const bool repeats = far_in_a_row_ > 0 && residual.dot(last_far_) > 0.0;
+  far_in_a_row_ = !is_far ? 0 : repeats ? far_in_a_row_ + 1 : 1;
+  last_far_ = residual;
+  return is_far && far_in_a_row_ <= kMostInARow;
+}
+
 template <int D>
 bool GainFilter<D>::update(const Vector& z, const Matrix& covariance) {
   if (!started_) return start(z, covariance);
   const Axes variance = covariance.diagonal().array();
+  if (!z.allFinite() || !is_variance(variance)) return refuse_measurement();
+  const Vector residual = z - estimate_.position;
+  if (schedule_.source == GainSource::kCovariance) {
+    return update_by(covariance_, z, variance, doubts(residual, covariance_, variance));
+  }
   // A second sensor at the same instant has no place in a table.
   const bool same_instant = updates_ > 0 && elapsed_ == 0.0;
-  if (same_instant || schedule_.source == GainSource::kCovariance) {
-    const AxisGain<Axes> gain = optimal_gain(variance);
-    if (!correct(z, variance, gain)) return false;
-    used_ = as_scheduled(gain);
-    return true;
+  if (!has_belief_) {
+    return same_instant ? update_by(covariance_, z, variance, false) : update_by_table(z, variance);
   }
+  const bool doubtful = doubts(residual, is_steady() ? settled_belief() : belief_, variance);
+  if (same_instant || doubtful) leave_schedule();
+  if (on_schedule_) return update_by_table(z, variance);
+  if (!update_by(belief_, z, variance, doubtful)) return false;
+  return_to_schedule();
+  return true;
+}
 
+template <int D>
+bool GainFilter<D>::update_by_table(const Vector& z, const Axes& variance) {
   const Scheduled due = scheduled();
   const auto& [gains, dt] = due;
   if (!correct(z, variance,
@@ -159,11 +259,35 @@ bool GainFilter<D>::update(const Vector& z, const Matrix& covariance) {
     return false;
   }
   used_ = due;
+  if (starting_up_ && has_belief_) {
+    belief_ = corrected(belief_, optimal_gain(belief_, variance), variance);
+  }
   const int steady_from = schedule_.start_up == StartUp::kTwoPoint ? 2 : gains.order + 1;
   if (starting_up_ && updates_ >= steady_from) {
     starting_up_ = schedule_.start_up == StartUp::kGrowingMemory &&
                    !reaches(schedule_.steady, start_up_gains(gains.order, updates_));
   }
+  return true;
+}
+
+/// Corrects with the best gain for an error known. The error of a doubtful residual is taken to be as
+/// much larger as it takes for the pull of the limit itself (Huber 1964).
+/// @param belief  the error, which is corrected, too; may be covariance_ itself
+template <int D>
+bool GainFilter<D>::update_by(AxisCovariance<Axes>& belief, const Vector& z, const Axes& variance,
+                              bool is_doubtful) {
+  Axes trusted = variance;
+  if (is_doubtful) {
+    const Axes s = belief.xx + variance;
+    const double distance = std::sqrt(((z - estimate_.position).array().square() / s).sum());
+    trusted = (distance / errors_.huber) * s - belief.xx;
+  }
+  const AxisGain<Axes> gain = optimal_gain(belief, trusted);
+  const bool is_own = &belief == &covariance_;
+  const AxisCovariance<Axes> next = is_own ? belief : corrected(belief, gain, trusted);
+  if (!is_finite(next) || !correct(z, trusted, gain)) return false;
+  if (!is_own) belief = next;
+  used_ = as_scheduled(gain);
   return true;
 }
 
@@ -181,15 +305,10 @@ bool GainFilter<D>::update(const Vector& z, const Gains& gains) {
 template <int D>
 bool GainFilter<D>::correct(const Vector& z, const Axes& variance, const AxisGain<Axes>& gain) {
   const Vector residual = z - estimate_.position;
-  Axes used = residual.array();
-  if (std::isfinite(errors_.huber)) {
-    const double distance = std::sqrt((used.square() / (covariance_.xx + variance)).sum());
-    if (distance > errors_.huber) used *= errors_.huber / distance;
-  }
   Kinematics<D> next = estimate_;
-  next.position.array() += gain.x * used;
-  next.velocity.array() += gain.v * used;
-  next.acceleration.array() += gain.a * used;
+  next.position.array() += gain.x * residual.array();
+  next.velocity.array() += gain.v * residual.array();
+  next.acceleration.array() += gain.a * residual.array();
   const AxisCovariance<Axes> covariance = corrected(covariance_, gain, variance);
   if (!residual.allFinite() || !is_variance(variance) || !next.is_finite() ||
       !is_finite(covariance)) {
@@ -238,6 +357,7 @@ void GainFilter<D>::adopt(const Knowledge<D>& known) {
   prior_ = estimate_;
   noise_ = covariance_;
   starting_up_ = false;
+  on_schedule_ = true;
 }
 
 template <int D>

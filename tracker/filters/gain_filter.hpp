@@ -9,6 +9,7 @@
 #include "tracker/filters/axis_covariance.hpp"
 #include "tracker/filters/gain_schedule.hpp"
 #include "tracker/filters/gains/gains.hpp"
+#include "tracker/filters/implied_noise.hpp"
 #include "tracker/filters/kinematics.hpp"
 
 namespace ghtrack {
@@ -21,7 +22,8 @@ struct ErrorModel {
   double process_intensity = 0.0;     // see process_noise(); 0: the target moves as the filter says
   double initial_speed = 0.0;         // 1-sigma velocity per axis at first sight [m/s]
   double initial_acceleration = 0.0;  // the same for the acceleration [m/s²]
-  double huber = std::numeric_limits<double>::infinity();  // longest residual used, in sigmas
+  double renewal = std::numeric_limits<double>::infinity();  // see process_noise() [s]
+  double huber = std::numeric_limits<double>::infinity();    // longest residual used, in sigmas
 };
 
 /// The g, g-h or g-h-k filter on D axes that share their gains. With T the time between updates:
@@ -32,6 +34,12 @@ struct ErrorModel {
 /// start-up that of growing memory, later the variance reduction factors, more after each miss.
 /// Lag is not in it: see steady_lag(). With GainSource::kCovariance the gains in turn are the best
 /// ones for that covariance: the filter is the Kalman filter of the same process noise.
+///
+/// Given gains are meant for the nominal interval. Where the schedule says
+/// IrregularTime::kGainsFromCovariance, a scan at any other time and a second sensor at the same
+/// instant, and with a Huber limit a residual beyond it, are met with the gains of the Kalman filter
+/// whose process noise the given gains imply (implied_noise()), and with the measurement's own
+/// error; the given gains return when that filter has settled and scans are on time again.
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
 /// leave the filter as it was. @ingroup gh_family
@@ -48,7 +56,8 @@ class GainFilter {
   /// The textbook's filter: constant gains, and an initial guess that is taken as certain.
   /// The guess holds at the time from which the first predict() counts.
   /// @param dt  nominal step [s]
-  GainFilter(const Gains& gains, double dt, const Kinematics<D>& guess, double sigma = 1.0);
+  GainFilter(const Gains& gains, double dt, const Kinematics<D>& guess, double sigma = 1.0,
+             IrregularTime irregular_time = IrregularTime::kFixedGains);
 
   /// "order0", "gh" or "ghk".
   std::string_view name() const;
@@ -61,6 +70,9 @@ class GainFilter {
   /// Takes the first measurement as the position; velocity and acceleration are unknown.
   bool start(const Vector& z, const Matrix& covariance);
   bool start(const Vector& z) { return start(z, nominal_covariance()); }
+
+  /// Takes a guess as certain and the start-up as done.
+  void start_from(const Kinematics<D>& guess);
 
   /// Carries the state dt seconds on. @returns false if refused
   bool predict(double dt);
@@ -118,13 +130,25 @@ class GainFilter {
   };
   Matrix nominal_covariance() const { return errors_.sigma * errors_.sigma * Matrix::Identity(); }
   Scheduled scheduled() const;
-  AxisGain<Axes> optimal_gain(const Axes& variance) const;
   Scheduled as_scheduled(const AxisGain<Axes>& gain) const;
+  bool is_steady() const { return on_schedule_ && !starting_up_; }
+  bool doubts(const Vector& residual, const AxisCovariance<Axes>& belief, const Axes& variance);
+  AxisCovariance<Axes> settled_belief() const;
+  void carry_belief(double dt);
+  void leave_schedule();
+  void return_to_schedule();
+  bool update_by_table(const Vector& z, const Axes& variance);
+  bool update_by(AxisCovariance<Axes>& belief, const Vector& z, const Axes& variance,
+                 bool is_doubtful);
   bool correct(const Vector& z, const Axes& variance, const AxisGain<Axes>& gain);
   bool refuse_measurement();
 
   GainSchedule schedule_;
   ErrorModel errors_;
+  bool has_belief_ = false;         // a table that may be left
+  NoiseDensities implied_ = {};     // by its gains
+  AxisCovariance<double> settled_;  // what belief_ is while the steady gains are used
+  AxisCovariance<Axes> belief_;     // that the gains follow off the table and while starting up
   Kinematics<D> prior_;
   Kinematics<D> estimate_;
   AxisCovariance<Axes> covariance_;
@@ -135,8 +159,11 @@ class GainFilter {
   double elapsed_ = 0.0;  // time since the last measurement used
   int updates_ = 0;
   int misses_ = 0;
+  int far_in_a_row_ = 0;               // residuals beyond the Huber limit, on one side
+  Vector last_far_ = Vector::Zero();   // the latest of them
   bool started_ = false;
   bool starting_up_ = true;
+  bool on_schedule_ = true;  // the table's gains are due
   Refusals refusals_;
 };
 

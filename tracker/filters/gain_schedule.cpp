@@ -23,9 +23,13 @@ Gains gains_of(const MemoryLaw& law, const Gains& steady, double ratio) {
 
 }  // namespace
 
+bool GainSchedule::is_nominal(double dt) const {
+  return std::abs(dt / interval - 1.0) <= kSameInterval;
+}
+
 Gains GainSchedule::at(double dt) const {
+  if (is_nominal(dt)) return steady;
   const double ratio = dt / interval;
-  if (std::abs(ratio - 1.0) <= kSameInterval) return steady;
   return std::visit([&](const auto& chosen) { return gains_of(chosen, steady, ratio); }, law);
 }
 

@@ -104,12 +104,19 @@ bool KalmanFilter<Order, D>::start(const Vector& z, const Matrix& covariance) {
 }
 
 template <int Order, int D>
+void KalmanFilter<Order, D>::start_from(const Kinematics<D>& guess) {
+  start(guess.position);
+  prior_ = estimate_ = guess;
+  updates_ = 0;
+}
+
+template <int Order, int D>
 bool KalmanFilter<Order, D>::predict(double dt) {
   const Kinematics<D> next = extrapolated(estimate_, dt);
   Covariance p = covariance_;
   extrapolate<Order, D>(p, dt);
   add_on_each_axis<Order, D>(
-      p, process_noise(model_.process_model, Order, model_.process_intensity, dt));
+      p, process_noise(model_.process_model, Order, model_.process_intensity, dt, model_.renewal));
   if (!(dt > 0.0) || !std::isfinite(dt) || !next.is_finite() || !p.allFinite()) {
     ++refusals_.times;
     return false;

@@ -18,6 +18,7 @@ struct KalmanModel {
   double interval = 1.0;  // nominal time between updates [s], for the steady gains only
   ProcessModel process_model = ProcessModel::kPiecewiseConstant;
   double process_intensity = 1.0;     // see process_noise()
+  double renewal = std::numeric_limits<double>::infinity();  // see process_noise() [s]
   double initial_speed = 0.0;         // 1-sigma velocity per axis at first sight [m/s]
   double initial_acceleration = 0.0;  // the same for the acceleration [m/s²]
   double huber = std::numeric_limits<double>::infinity();  // longest pull of a residual, in sigmas
@@ -54,6 +55,9 @@ class KalmanFilter {
 
   bool start(const Vector& z, const Matrix& covariance);
   bool start(const Vector& z) { return start(z, nominal_covariance()); }
+
+  /// Starts at a guess as uncertain as a target at first sight.
+  void start_from(const Kinematics<D>& guess);
 
   /// x' = F x, P' = F P Fᵀ + Q. @returns false if refused
   bool predict(double dt);

@@ -10,9 +10,13 @@
 namespace ghtrack {
 
 /// Growing memory: the least-squares polynomial of order 0, 1 or 2 through all measurements so
-/// far, updated one by one (Zarchan & Musoff). It forgets its initial guess, zero by default, with
-/// measurement order + 1; before that its derivatives mean nothing. Measurements are assumed to be
-/// equally spaced: after a miss or an uneven step the fit is approximate. @ingroup gh_family
+/// far, updated one by one. It forgets its initial guess, zero by default, with measurement
+/// order + 1; before that its derivatives mean nothing.
+///
+/// While measurements are dt apart the gains are the closed ones of Zarchan & Musoff. From the first
+/// miss or uneven step on they come from the times themselves: with τ the time of a measurement
+/// after now and N = Σ φ φᵀ, φ = (1, τ, τ²/2)ᵀ, over all of them, the latest included, the gain of
+/// its residual is the first column of N⁻¹. @ingroup gh_family
 template <int D>
 class LeastSquaresFilter {
  public:
@@ -25,6 +29,8 @@ class LeastSquaresFilter {
   /// Carries the state dt seconds on. @returns false if refused
   bool predict(double dt);
   bool predict() { return predict(dt_); }
+  /// Takes the first measurement as the position, with the guess's derivatives.
+  bool start(const Vector& z);
   /// Takes one more measurement into the fit. @returns false if refused
   bool update(const Vector& z);
   /// Says that there is no measurement for this prediction.
@@ -51,6 +57,9 @@ class LeastSquaresFilter {
   Kinematics<D> estimate_ = guess_;
   std::optional<Vector> residual_ = {};
   Gains used_ = {};
+  std::array<double, 5> moments_ = {};  // Σ τⁱ of all measurements, τ ≤ 0 their time after now [sⁱ]
+  double elapsed_ = 0.0;  // since the latest measurement
+  bool is_even_ = true;   // measurements have been dt apart
   int updates_ = 0;
   Refusals refusals_ = {};
 };

@@ -9,11 +9,13 @@
 
 #include "tracker/filters/gain_filter.hpp"
 #include "tracker/filters/kalman_filter.hpp"
+#include "tracker/filters/motion_filter.hpp"
 
 namespace ghtrack {
 
 /// One filter of one object's positions in the plane. Add yours here.
-using SingleFilter = std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>>;
+using SingleFilter =
+    std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>, MotionFilter>;
 
 /// Several filters side by side on the measurements of one object; each keeps its own state, and
 /// the innovations r decide which of them to believe (multiple-model estimation, Magill 1965, with

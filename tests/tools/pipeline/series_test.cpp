@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace ghtrack {
@@ -31,6 +32,42 @@ TEST(Series, ReproducesTheTextbooksWeights) {
     EXPECT_NEAR(result.tracks[0].rows[i].x, expected[i], 5e-4);
   }
   EXPECT_FALSE(result.tracks[0].rmse);
+}
+
+SeriesScene hallway(double accuracy, std::vector<double> kernel) {
+  SeriesScene scene;
+  const std::vector<double> map = {1, 1, 0, 0, 0, 0, 0, 0, 1, 0};
+  scene.data = WalkSeries{.points = 60, .map = map, .kernel = kernel, .accuracy = 0.9};
+  SeriesFilter filter;
+  filter.name = "dog";
+  filter.model = DiscreteBayesConfig{.map = map, .accuracy = accuracy, .movement = 1, .kernel = kernel};
+  scene.filters = {filter};
+  return scene;
+}
+
+double largest(const discrete_bayes::Belief& belief) {
+  return *std::max_element(belief.begin(), belief.end());
+}
+
+// Property: a dog in a hallway is found by doors; every step spreads the belief, a reading that says
+// nothing leaves it as it is, and telling ones gather it again.
+TEST(Series, FindsADogInAHallwayByItsDoors) {
+  const SeriesTrack heard = run(hallway(0.9, {0.1, 0.8, 0.1})).tracks.at(0);
+  int found = 0;
+  double lost = 0.0, regained = 0.0;
+  for (std::size_t i = 20; i < heard.rows.size(); ++i) {
+    found += heard.rows[i].x == *heard.rows[i].truth ? 1 : 0;
+    lost += largest(heard.beliefs[i - 1].posterior) - largest(heard.beliefs[i].prior);
+    regained += largest(heard.beliefs[i].posterior) - largest(heard.beliefs[i].prior);
+  }
+  EXPECT_GT(found, 28);  // of 40
+  EXPECT_GT(lost, 1.0);
+  EXPECT_GT(regained, 1.0);
+
+  const SeriesTrack deaf = run(hallway(0.5, {0.1, 0.8, 0.1})).tracks.at(0);
+  for (const SeriesBelief& belief : deaf.beliefs) {
+    EXPECT_NEAR(largest(belief.posterior), 0.1, 1e-12);
+  }
 }
 
 // Derived: without noise the steady lag of a g-h filter behind acceleration a is (1 − g) a T² / h.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -138,6 +139,7 @@ struct TrackingIndex {
   double process_noise = 10.0;  // [m/s²]: between a train (1) and a thrown ball (10 and drag)
   std::optional<double> index = {};
   ProcessModel model = ProcessModel::kPiecewiseConstant;
+  std::optional<double> spectral_density = {};
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -155,11 +157,27 @@ struct TrackingIndex {
       v.field(
           "model", &TrackingIndex::model,
           {.meaning = "how the velocity changes: piecewise-constant acceleration, a random walk "
-                      "at the scans, or white noise all the time"});
+                      "at the scans, or white noise all the time, which is the same whatever the "
+                      "scan rate"});
+      v.field("spectral_density", &TrackingIndex::spectral_density,
+              {.unit = "m²/s³",
+               .meaning = "of white noise, as in kalman-cv, instead of process_noise, whose square "
+                          "times T it is",
+               .above = 0.0});
     }
   }
+  template <class Report>
+  void check(Report&& report) const {
+    if (!spectral_density) return;
+    if (model != ProcessModel::kWhiteNoise) {
+      report("spectral_density", "is that of white noise: say model: white-noise");
+    }
+    if (index) report("spectral_density", "says the same as index; give one of them");
+  }
   double index_at(double sigma, double dt) const {
-    return index ? *index : tracking_index(process_noise, sigma, dt);
+    if (index) return *index;
+    if (spectral_density) return std::sqrt(*spectral_density * dt) * dt / sigma;
+    return tracking_index(process_noise, sigma, dt);
   }
   Gains gains(double sigma, double dt) const {
     return tracking_index_gains(Order, index_at(sigma, dt), model);

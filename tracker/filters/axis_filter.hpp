@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "tracker/filters/discrete_bayes_filter.hpp"
+#include "tracker/filters/filter_config.hpp"
+#include "tracker/filters/gain_filter.hpp"
+#include "tracker/filters/kalman_filter.hpp"
+#include "tracker/filters/least_squares_filter.hpp"
+#include "tracker/filters/scalar_kalman_filter.hpp"
+
+namespace ghtrack {
+
+/// Growing memory: least squares over all measurements so far.
+struct LeastSquaresConfig {
+  static constexpr std::string_view kind = "least-squares";
+  static constexpr std::string_view about =
+      "The polynomial with the least squared residuals over all measurements so far.";
+  int order = 1;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("order", &LeastSquaresConfig::order,
+            {.unit = "1",
+             .meaning = "0: a constant, 1: a line, 2: a parabola",
+             .minimum = 0,
+             .maximum = 2});
+  }
+};
+
+/// The one-dimensional Kalman filter x = x + u + w.
+struct ScalarKalmanConfig {
+  static constexpr std::string_view kind = "kalman-1d";
+  static constexpr std::string_view about =
+      "Kalman filter of one variable that moves by a known amount and some noise at every step.";
+  double p0 = 1.0;
+  double q = 1.0;
+  double r = 1.0;
+  double u = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("p0", &ScalarKalmanConfig::p0,
+            {.meaning = "variance of the initial guess", .minimum = 0.0});
+    v.field("q", &ScalarKalmanConfig::q,
+            {.meaning = "variance that a step adds", .minimum = 0.0});
+    v.field("r", &ScalarKalmanConfig::r, {.meaning = "variance of a measurement", .above = 0.0});
+    v.field("u", &ScalarKalmanConfig::u, {.meaning = "movement in a step"});
+  }
+};
+
+/// A filter of one variable, as series scenes and `ghtrack filter` try them. Add yours here, and its
+/// filter to AxisFilter.
+using AxisFilterConfig = std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig,
+                                      KalmanCaConfig, LeastSquaresConfig, ScalarKalmanConfig,
+                                      DiscreteBayesConfig>;
+using AxisFilter = std::variant<GainFilter<1>, KalmanFilter<1, 1>, KalmanFilter<2, 1>,
+                                LeastSquaresFilter<1>, ScalarKalmanFilter, DiscreteBayesFilter>;
+
+/// @param sigma  1-sigma measurement error, > 0
+/// @param dt     nominal time between measurements [s], > 0
+/// @param guess  that holds before the first step; without it the filter starts at its first
+///               measurement, by start()
+/// @throws std::invalid_argument if σ or dt is not positive and finite, or the gains are unstable
+AxisFilter make_axis_filter(const AxisFilterConfig& config, double sigma, double dt,
+                            const std::optional<Kinematics<1>>& guess);
+
+/// The highest derivative that the filter carries.
+int order_of(const AxisFilterConfig& config);
+
+/// Starts a filter that was made without a guess.
+void start(AxisFilter& filter, double z);
+
+}  // namespace ghtrack

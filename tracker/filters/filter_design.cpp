@@ -1,0 +1,158 @@
+#include "tracker/filters/filter_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "tracker/filters/gains/analysis.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// How the gains of a rule follow the interval, and the process noise that it assumes.
+template <int Order>
+void apply_rule(const gain_design::TrackingIndex<Order>& rule, GainSchedule& schedule,
+                ErrorModel& errors) {
+  const double index = rule.index_at(errors.sigma, schedule.interval);
+  schedule.law = IndexLaw{index, rule.model};
+  errors.process_model = rule.model;
+  errors.process_intensity = intensity_of_index(rule.model, index, errors.sigma, schedule.interval);
+}
+
+void apply_rule(const auto& rule, GainSchedule& schedule, ErrorModel&) {
+  if constexpr (requires { rule.theta; }) schedule.law = MemoryLaw{rule.theta};
+}
+
+void require_stable(const Gains& gains) {
+  if (const auto violated = violated_inequality(gains)) {
+    throw std::invalid_argument("unstable gains " + to_text(gains) + ": " + std::string(*violated) +
+                                " does not hold");
+  }
+}
+
+}  // namespace
+
+void require_measurable(double sigma, double dt) {
+  if (!(sigma > 0.0) || !std::isfinite(sigma)) {
+    throw std::invalid_argument("a filter needs a positive measurement error");
+  }
+  if (!(dt > 0.0) || !std::isfinite(dt)) {
+    throw std::invalid_argument("a filter needs a positive time between updates");
+  }
+}
+
+template <int Order>
+GainDesign designed(const GainFilterConfig<Order>& config, double sigma, double dt) {
+  GainSchedule schedule{.interval = dt,
+                        .source = config.source(),
+                        .start_up = config.start_up.value_or(StartUp::kGrowingMemory)};
+  ErrorModel errors{.sigma = sigma,
+                    .initial_speed = config.initial_speed,
+                    .initial_acceleration = config.initial_acceleration,
+                    .renewal = dt,
+                    .huber = config.huber.value_or(kNoLimit)};
+  std::visit(
+      [&](const auto& rule) {
+        schedule.steady = rule.gains(sigma, dt);
+        apply_rule(rule, schedule, errors);
+      },
+      config.design);
+  require_stable(schedule.steady);
+  schedule.irregular_time = config.irregular_time.value_or(IrregularTime::kGainsFromCovariance);
+  if (config.allowed_acceleration) {
+    errors.process_model = ProcessModel::kPiecewiseConstant;
+    errors.process_intensity = *config.allowed_acceleration;
+  }
+  return {schedule, errors};
+}
+
+template <int Order>
+KalmanModel designed(const KalmanConfig<Order>& config, double sigma, double dt) {
+  KalmanModel model{.sigma = sigma,
+                    .interval = dt,
+                    .renewal = dt,
+                    .initial_speed = config.initial_speed,
+                    .initial_acceleration = config.initial_acceleration,
+                    .huber = config.huber.value_or(kNoLimit)};
+  std::visit(
+      [&model](const auto& process) {
+        model.process_model = process.model;
+        model.process_intensity = process.intensity();
+      },
+      config.model);
+  return model;
+}
+
+template GainDesign designed(const GainFilterConfig<0>&, double, double);
+template GainDesign designed(const GainFilterConfig<1>&, double, double);
+template GainDesign designed(const GainFilterConfig<2>&, double, double);
+template KalmanModel designed(const KalmanConfig<1>&, double, double);
+template KalmanModel designed(const KalmanConfig<2>&, double, double);
+
+namespace {
+
+template <int Order>
+TargetMotion motion_of(const motion::NearlyConstant<Order>& chosen, double initial_acceleration) {
+  return PolynomialMotion{.order = Order,
+                          .process_intensity = chosen.spectral_density,
+                          .initial_acceleration = initial_acceleration};
+}
+TargetMotion motion_of(const CoordinatedTurn& chosen, double) { return chosen; }
+TargetMotion motion_of(const Ballistic& chosen, double) { return chosen; }
+
+template <int Order>
+MotionFilter mode_of(const GainFilterConfig<Order>& config, double sigma, double dt) {
+  const auto& [schedule, errors] = designed(config, sigma, dt);
+  PolynomialMotion motion{.order = std::max(Order, 1),
+                          .process_model = errors.process_model,
+                          .process_intensity = errors.process_intensity,
+                          .renewal = dt,
+                          .initial_acceleration = errors.initial_acceleration};
+  if (schedule.source == GainSource::kTable) {
+    motion.process_intensity = 0.0;
+    motion.implied = implied_noise(schedule.steady, sigma, dt);
+  }
+  return MotionFilter({.motion = motion,
+                       .sigma = sigma,
+                       .interval = dt,
+                       .initial_speed = errors.initial_speed});
+}
+
+template <int Order>
+MotionFilter mode_of(const KalmanConfig<Order>& config, double sigma, double dt) {
+  const KalmanModel model = designed(config, sigma, dt);
+  return MotionFilter({.motion = PolynomialMotion{.order = Order,
+                                                  .process_model = model.process_model,
+                                                  .process_intensity = model.process_intensity,
+                                                  .renewal = dt,
+                                                  .initial_acceleration =
+                                                      model.initial_acceleration},
+                       .sigma = sigma,
+                       .interval = dt,
+                       .initial_speed = model.initial_speed});
+}
+
+template <Propagation Way>
+MotionFilter mode_of(const MotionFilterConfig<Way>& config, double sigma, double dt) {
+  const auto motion = std::visit(
+      [&](const auto& chosen) { return motion_of(chosen, config.initial_acceleration); },
+      config.motion);
+  return MotionFilter({.motion = motion,
+                       .propagation = Way,
+                       .sigma = sigma,
+                       .interval = dt,
+                       .initial_speed = config.initial_speed});
+}
+
+}  // namespace
+
+MotionFilter equivalent_motion(const SingleFilterConfig& config, double sigma, double dt) {
+  require_measurable(sigma, dt);
+  return std::visit([&](const auto& chosen) { return mode_of(chosen, sigma, dt); }, config);
+}
+
+}  // namespace ghtrack

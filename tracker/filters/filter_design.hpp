@@ -1,0 +1,35 @@
+#pragma once
+
+#include "tracker/filters/filter_config.hpp"
+#include "tracker/filters/gain_filter.hpp"
+#include "tracker/filters/gain_schedule.hpp"
+#include "tracker/filters/kalman_filter.hpp"
+#include "tracker/filters/motion_filter.hpp"
+
+// From what a scene says of a filter to the numbers that it works with, for a measurement error σ
+// [m] and a nominal time dt [s] between updates. The same on any number of axes.
+
+namespace ghtrack {
+
+/// @throws std::invalid_argument unless σ and dt are positive and finite
+void require_measurable(double sigma, double dt);
+
+/// What a GainFilter is made of.
+struct GainDesign {
+  GainSchedule schedule;
+  ErrorModel errors;
+};
+
+/// @throws std::invalid_argument if the gains are unstable
+template <int Order>
+GainDesign designed(const GainFilterConfig<Order>& config, double sigma, double dt);
+
+template <int Order>
+KalmanModel designed(const KalmanConfig<Order>& config, double sigma, double dt);
+
+/// The filter of a motion and process noise that a configuration stands for: of designed gains those
+/// that they imply. It is what interacting models mix, and what a smoother carries back.
+/// @throws std::invalid_argument if the gains are unstable
+MotionFilter equivalent_motion(const SingleFilterConfig& config, double sigma, double dt);
+
+}  // namespace ghtrack

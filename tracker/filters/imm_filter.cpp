@@ -1,0 +1,197 @@
+#include "tracker/filters/imm_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace ghtrack {
+namespace {
+
+/// What is known of one mode's state by another: components that both have come from the other, the
+/// rest from the mode itself.
+struct Lifted {
+  MotionState x;
+  MotionCovariance p;
+};
+
+Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
+  Lifted known{to.state(), to.covariance()};
+  const Eigen::Index n = known.x.size();
+  std::vector<int> source(static_cast<std::size_t>(n), -1);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < from.state().size(); ++j) {
+      if (component_of(to.motion(), i) == component_of(from.motion(), j)) {
+        source[static_cast<std::size_t>(i)] = j;
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    const int a = source[static_cast<std::size_t>(i)];
+    if (a >= 0) known.x[i] = from.state()[a];
+    for (int j = 0; j < n; ++j) {
+      const int b = source[static_cast<std::size_t>(j)];
+      if (a >= 0 && b >= 0) {
+        known.p(i, j) = from.covariance()(a, b);
+      } else if (a >= 0 || b >= 0) {
+        known.p(i, j) = 0.0;
+      }
+    }
+  }
+  return known;
+}
+
+}  // namespace
+
+ImmFilter::ImmFilter(std::vector<Mode> modes, double switching)
+    : modes_(std::move(modes)), switching_(switching) {
+  if (modes_.empty()) throw std::invalid_argument("interacting models need at least one filter");
+  if (!(switching >= 0.0 && switching <= 0.5)) {
+    throw std::invalid_argument("the probability of changing the model must lie in [0, 0.5]");
+  }
+  for (Mode& mode : modes_) mode.weight = 1.0 / static_cast<double>(modes_.size());
+}
+
+bool ImmFilter::start(const Vector& z, const Matrix& covariance) {
+  for (Mode& mode : modes_) {
+    if (!mode.filter.start(z, covariance)) {
+      ++refusals_.measurements;
+      return false;
+    }
+    mode.weight = 1.0 / static_cast<double>(modes_.size());
+  }
+  residual_.reset();
+  leader_ = 0;
+  updates_ = 1;
+  misses_ = 0;
+  combine();
+  prior_ = estimate_;
+  return true;
+}
+
+/// Mixes the modes for a step of dt, and gives them the weights c_j.
+void ImmFilter::mix(double dt) {
+  const auto m = static_cast<double>(modes_.size());
+  if (modes_.size() == 1 || switching_ == 0.0) return;
+  // The chain's transition matrix to the power dt / T: all its other eigenvalues are equal.
+  const double decay = std::pow(1.0 - switching_ * m / (m - 1.0), dt / nominal_interval());
+  const double leave = (1.0 - decay) / m;
+  const double stay = decay + leave;
+
+  std::vector<double> arrived(modes_.size());
+  std::vector<Lifted> mixtures;
+  for (std::size_t j = 0; j < modes_.size(); ++j) {
+    const MotionFilter& own = modes_[j].filter;
+    Lifted mixture{MotionState::Zero(own.state().size()),
+                   MotionCovariance::Zero(own.state().size(), own.state().size())};
+    std::vector<std::pair<double, Lifted>> parts;
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+      const double weight = (i == j ? stay : leave) * modes_[i].weight;
+      arrived[j] += weight;
+      parts.emplace_back(weight, lifted(modes_[i].filter, own));
+    }
+    for (const auto& [weight, part] : parts) mixture.x += weight / arrived[j] * part.x;
+    for (const auto& [weight, part] : parts) {
+      const MotionState d = part.x - mixture.x;
+      mixture.p += weight / arrived[j] * (part.p + d * d.transpose());
+    }
+    mixtures.push_back(std::move(mixture));
+  }
+  for (std::size_t j = 0; j < modes_.size(); ++j) {
+    modes_[j].filter.set_state(mixtures[j].x, mixtures[j].p);
+    modes_[j].weight = arrived[j];
+  }
+}
+
+bool ImmFilter::predict(double dt) {
+  if (!(dt > 0.0) || !std::isfinite(dt)) {
+    ++refusals_.times;
+    return false;
+  }
+  if (!is_started()) return true;
+  ImmFilter next = *this;
+  next.mix(dt);
+  for (Mode& mode : next.modes_) {
+    if (!mode.filter.predict(dt)) {
+      ++refusals_.times;
+      return false;
+    }
+  }
+  *this = std::move(next);
+  residual_.reset();
+  combine();
+  prior_ = estimate_;
+  return true;
+}
+
+bool ImmFilter::update(const Vector& z, const Matrix& covariance) {
+  if (!is_started()) return start(z, covariance);
+  const Vector expected = estimate_.position;
+  if (!update(Measurement{z, covariance, PositionModel{}})) return false;
+  residual_ = z - expected;
+  return true;
+}
+
+bool ImmFilter::update(const Vector& z) {
+  return update(z, sigma() * sigma() * Matrix::Identity());
+}
+
+bool ImmFilter::update(const Measurement& measured) {
+  std::vector<Mode> next = modes_;
+  for (Mode& mode : next) {
+    if (!mode.filter.update(measured)) {
+      ++refusals_.measurements;
+      return false;
+    }
+  }
+  const auto log_of = [](const Mode& mode) { return mode.filter.log_likelihood(); };
+  const double best = log_of(*std::max_element(
+      next.begin(), next.end(),
+      [&](const Mode& a, const Mode& b) { return log_of(a) < log_of(b); }));
+  double sum = 0.0;
+  for (Mode& mode : next) {
+    mode.weight *= std::exp(log_of(mode) - best);
+    sum += mode.weight;
+  }
+  if (sum > 0.0 && std::isfinite(sum)) {
+    for (Mode& mode : next) mode.weight /= sum;
+    log_likelihood_ = best + std::log(sum);
+  } else {  // none has foreseen it
+    for (std::size_t i = 0; i < next.size(); ++i) next[i].weight = modes_[i].weight;
+    log_likelihood_ = best;
+  }
+  modes_ = std::move(next);
+  prior_ = estimate_;
+  combine();
+  residual_ = estimate_.position - prior_.position;
+  misses_ = 0;
+  ++updates_;
+  return true;
+}
+
+void ImmFilter::coast() {
+  residual_.reset();
+  ++misses_;
+}
+
+/// The mean and the covariance of the mixture of all modes, and the leader, which stays while no
+/// other mode is likelier.
+void ImmFilter::combine() {
+  estimate_ = {};
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    const double weight = modes_[i].weight;
+    const Kinematics<2>& of_mode = modes_[i].filter.estimate();
+    estimate_.position += weight * of_mode.position;
+    estimate_.velocity += weight * of_mode.velocity;
+    estimate_.acceleration += weight * of_mode.acceleration;
+    if (weight > modes_[leader_].weight) leader_ = i;
+  }
+  covariance_.setZero();
+  for (const Mode& mode : modes_) {
+    const Vector d = mode.filter.estimate().position - estimate_.position;
+    covariance_ += mode.weight * (mode.filter.innovation_covariance(Matrix::Zero()) +
+                                  Matrix(d * d.transpose()));
+  }
+}
+
+}  // namespace ghtrack
