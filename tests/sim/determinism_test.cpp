@@ -10,7 +10,8 @@
 #include "scenes/schema/reader.hpp"
 #include "tests/sim/golden_worlds.hpp"
 #include "tests/sim/scenario.hpp"
-#include "tools/pipeline/simulation.hpp"
+#include "tests/tools/run/listener.hpp"
+#include "tools/run/run.hpp"
 
 // T20: the truth depends on the scene and its seed, and on nothing else.
 
@@ -92,16 +93,13 @@ WorldScene scene_with(const std::vector<std::string>& overrides) {
 /// Hash of the truth at the scans of the first sensor.
 std::uint64_t truth_hash_of_run(const WorldScene& scene,
                                 const std::vector<double>& frame_times = {}) {
-  World world = make_world(scene);
+  SimulatedTruth source([&] { return make_world(scene); });
   std::uint64_t hash = 0;
   Listener listener;
   listener.on_observation = [&](const TruthSnapshot& truth, const Observation& observation) {
     if (observation.scan.sensor == 0) hash = truth_hash(truth, hash);
   };
-  listener.frame_times = frame_times;
-  listener.on_frame = [](const TruthSnapshot&) {};
-  listener.on_scan = [](const StepRecord&) {};
-  run(scene, world, listener);
+  run(scene, source, std::vector{own_tracker(scene)}, {&listener}, frame_times);
   return hash;
 }
 

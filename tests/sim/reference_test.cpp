@@ -15,7 +15,8 @@
 
 #include "scenes/schema/reader.hpp"
 #include "sim/portable_math.hpp"
-#include "tools/pipeline/simulation.hpp"
+#include "tests/tools/run/listener.hpp"
+#include "tools/run/run.hpp"
 
 // Reference trajectories of the models in tests/reference/physics/MODELS.md, made independently of
 // Box2D and of this project (DOP853 at a tolerance of 1e-12, each cross-checked by a second
@@ -114,7 +115,7 @@ struct Deviation {
 Deviation deviation_from(const std::string& name, int physics_rate) {
   const WorldScene scene = read_world_scene(name, physics_rate);
   const Table table = read_table(name);
-  World world = make_world(scene);
+  SimulatedTruth source([&] { return make_world(scene); });
   const std::vector<double>& times = table.at("t");
   std::vector<TruthState> began;
   Deviation worst;
@@ -130,8 +131,7 @@ Deviation deviation_from(const std::string& name, int physics_rate) {
     }
     ++row;
   };
-  listener.on_scan = [](const StepRecord&) {};
-  run(scene, world, listener);
+  run(scene, source, {}, {&listener});
   EXPECT_EQ(row, times.size());
   return worst;
 }

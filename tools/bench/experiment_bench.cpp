@@ -10,7 +10,8 @@
 #include "scenes/schema/reader.hpp"
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/trial.hpp"
-#include "tools/pipeline/simulation.hpp"
+#include "tools/run/run.hpp"
+#include "tools/run/schedule.hpp"
 
 // What a run, and a run of a campaign, cost beside the simulation of their truth. All parts take
 // turns, so that a busy machine slows them alike, and the least time of each counts.
@@ -36,30 +37,20 @@ WorldScene three_regimes(int runs) {
 
 void simulate_truth(const WorldScene& scene) {
   World world = make_world(scene);
-  ScanSchedule schedule(scene);
-  for (auto scan = schedule.next(); scan; scan = schedule.next()) {
-    schedule.take(*scan);
-    benchmark::DoNotOptimize(world.sample(scan->time));
-  }
+  for (const double time : scan_instants(scene)) benchmark::DoNotOptimize(world.sample(time));
 }
 
 /// World, sensors, tracker and metrics, as `ghtrack run` does without files.
 void run_headless(const WorldScene& scene) {
-  World world = make_world(scene);
-  RunMetrics metrics(world.objects(), scoring_for(traits_of(scene.sensors)));
-  Listener listener;
-  listener.on_observation = [&](const TruthSnapshot& truth, const Observation& observation) {
-    metrics.add_observation(truth, observation);
-  };
-  listener.on_scan = [&](const StepRecord& record) { metrics.add_tracks(record); };
-  run(scene, world, listener);
+  SimulatedTruth truth([&] { return make_world(scene); });
+  RunMetrics metrics(truth.objects(), scoring_for(traits_of(scene.sensors)));
+  run(scene, truth, std::vector{own_tracker(scene)}, {&metrics});
   benchmark::DoNotOptimize(metrics.report());
 }
 
 void run_beside_truth(benchmark::State& state) {
   const WorldScene scene = three_regimes(1);
-  Trial trial(scene);
-  trial.record_truth();
+  const Trial trial(scene);
   double truth = 1e9;
   double whole = 1e9;
   double replay = 1e9;

@@ -16,7 +16,7 @@
 #include "scenes/schema/reader.hpp"
 #include "tools/film/frame_maker.hpp"
 #include "tools/film/scene_drawing.hpp"
-#include "tools/pipeline/simulation.hpp"
+#include "tools/run/run.hpp"
 #include "tools/render/encoder.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/video_file.hpp"
@@ -27,18 +27,17 @@ namespace {
 constexpr int kRounds = 5;
 
 /// Runs the scene and hands out each frame.
-void film_scene(const WorldScene& scene, World& world, const render::VideoOptions& options,
-                const std::function<void(const render::VideoFrame&)>& on_frame) {
-  film::FrameMaker maker(scene, {});
-  Listener listener;
-  listener.on_scan = [&](const StepRecord& record) { maker.add_scan(record); };
-  listener.frame_times = render::frame_times(options, scene.duration);
-  listener.on_frame = [&](const TruthSnapshot& truth) { on_frame(maker.frame(truth)); };
-  run(scene, world, listener);
+void film_scene(const WorldScene& scene, const render::VideoOptions& options,
+                const film::FrameMaker::OnFrame& on_frame) {
+  SimulatedTruth truth([&] { return make_world(scene); });
+  film::FrameMaker maker(scene, {}, on_frame);
+  run(scene, truth, std::vector{own_tracker(scene)}, {&maker},
+      render::frame_times(options, scene.duration));
 }
 
 render::SceneDrawing drawing_of(const WorldScene& scene, const World& world) {
-  return film::drawing_of(scene, world, {}, [] {});
+  SimulatedTruth truth([&] { return make_world(scene); });
+  return film::drawing_of(scene, world, truth, {}, [] {});
 }
 
 std::vector<cv::Mat> frames_in_memory(const WorldScene& scene,
@@ -46,7 +45,7 @@ std::vector<cv::Mat> frames_in_memory(const WorldScene& scene,
   World world = make_world(scene);
   render::Picture picture(options, drawing_of(scene, world));
   std::vector<cv::Mat> frames;
-  film_scene(scene, world, options,
+  film_scene(scene, options,
              [&](const render::VideoFrame& frame) { picture.draw(frame, frames.emplace_back()); });
   return frames;
 }
@@ -60,7 +59,7 @@ void encode(const std::vector<cv::Mat>& frames, const render::VideoOptions& opti
 void make_video(const WorldScene& scene, const render::VideoOptions& options) {
   World world = make_world(scene);
   const auto video = render::open_video_file(options, drawing_of(scene, world));
-  film_scene(scene, world, options,
+  film_scene(scene, options,
              [&](const render::VideoFrame& frame) { video->add_frame(frame); });
   video->finish();
 }
@@ -77,7 +76,7 @@ int bench(const std::string& seconds) {
   const auto scene = std::get<WorldScene>(read_scene(file, changes));
   const World world = make_world(scene);
   const auto folder = std::filesystem::temp_directory_path();
-  const auto options = film::video_options(scene, world, folder / "ghtrack_bench_video.mp4");
+  const auto options = film::video_options(scene, world.objects(), folder / "ghtrack_bench_video.mp4");
 
   const std::vector<cv::Mat> frames = frames_in_memory(scene, options);
   double encoding = 1e9;

@@ -34,6 +34,7 @@ struct RunOptions {
   std::string output;         // folder; empty: out/<scene name>
   std::optional<bool> video;  // overrides what the scene says
   VideoLook look;
+  bool compare = false;       // the video shows the filters under `compare`, on the same run
 };
 
 struct VideoCommandOptions {

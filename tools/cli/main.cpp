@@ -155,6 +155,8 @@ void add_run(CLI::App& app, RunOptions& options) {
   command.add_flag("--video,!--no-video", options.video,
                    "write video.mp4, whatever the scene says");
   add_look(command, options.look);
+  command.add_flag("--compare", options.compare,
+                   "let the video show the filters under compare, side by side on the same run");
   command.footer(
       "Examples:\n"
       "  ghtrack run scenes/three_regimes.yaml\n"

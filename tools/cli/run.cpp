@@ -12,16 +12,18 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/panels.hpp"
 #include "tools/cli/run_series.hpp"
+#include "tools/cli/run_watch.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
-#include "tools/cli/video_frames.hpp"
 #include "tools/cli/video_look.hpp"
+#include "tools/film/film.hpp"
 #include "tools/film/scene_drawing.hpp"
 #include "tools/metrics/run_metrics.hpp"
-#include "tools/pipeline/simulation.hpp"
 #include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
+#include "tools/run/run.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -34,49 +36,54 @@ std::vector<std::string> sensor_names(const WorldScene& scene) {
   return names;
 }
 
-/// Simulates, senses, tracks and scores; all files appear under their names when all are complete.
-/// What an interrupted run has done so far is kept in partial files.
+void warn_of_missed_collisions(const TruthSource& truth, const WorldScene& scene) {
+  if (truth.missed_collisions() == 0) return;
+  tell(
+      "ghtrack: warning: {} collisions were passed over, too fast for steps of 1/{} s; a higher "
+      "physics.rate resolves them",
+      truth.missed_collisions(), scene.physics.rate);
+}
+
+/// A scene on its way to files: its truth, its sensors, who follows, and who listens. All files
+/// appear under their names when all are complete; what an interrupted run has done so far is kept
+/// in partial files.
 void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions& options,
                const Manners& manners) {
   const fs::path& folder = results.scratch();
-  World world = make_world(scene);
-  RunWriter files(folder, world.objects(), sensor_names(scene));
-  RunMetrics metrics(world.objects(), scoring_for(traits_of(scene.sensors)));
-  std::optional<VideoFrames> frames;
-  if (options.video.value_or(scene.video.has_value())) {
-    render::VideoOptions video = film::video_options(scene, world, folder / "video.mp4");
-    apply(options.look, video);
-    frames.emplace(scene, world, video, std::vector<film::Contender>{}, manners.quiet);
-  }
+  const auto new_world = [&scene] { return make_world(scene); };
+  SimulatedTruth simulated(new_world);
+  const std::vector<ObjectInfo>& objects = simulated.objects();
 
-  Listener listener;
-  listener.on_observation = [&](const TruthSnapshot& truth, const Observation& observation) {
-    stop_if_interrupted();
-    files.add_observation(truth, observation);
-    metrics.add_observation(truth, observation);
-  };
-  listener.on_scan = [&](const StepRecord& record) {
-    files.add_tracks(record.tracks);
-    metrics.add_tracks(record);
-    if (frames) frames->add_scan(record);
-  };
-  if (frames) {
-    listener.on_late_scan = [&](const Observation& late) { frames->add_late_scan(late); };
-    listener.frame_times = frames->times();
-    listener.on_frame = [&](const TruthSnapshot& truth) {
-      stop_if_interrupted();
-      frames->add_frame(truth);
-    };
+  std::vector<Contender> contenders = {own_tracker(scene)};
+  film::Shown shown;
+  if (options.compare) {
+    const std::vector<Contender> compared = filters_side_by_side(scene, "run");
+    contenders.insert(contenders.end(), compared.begin(), compared.end());
+    shown = {.first = 1, .count = compared.size()};
   }
-  RunCounts counts;
+  std::optional<film::Film> film;
+  if (options.video.value_or(options.compare || scene.video.has_value())) {
+    render::VideoOptions video = film::video_options(scene, objects, folder / "video.mp4");
+    apply(options.look, video);
+    film.emplace(scene, new_world, video, contenders, shown, stop_if_interrupted);
+  }
+  const std::vector<double> frames = film ? film->frame_times() : std::vector<double>{};
+
+  RunWatch watch(frames.size(), manners.quiet);
+  RunWriter files(folder, objects, sensor_names(scene));
+  RunMetrics metrics(objects, scoring_for(traits_of(scene.sensors)));
+  RunObservers observers = {&watch, &files, &metrics};
+  if (film) observers.push_back(&*film);
+  TruthSource& truth = film ? film->truth() : simulated;
+  std::vector<RunCounts> counts;
   try {
-    counts = ghtrack::run(scene, world, listener);
+    counts = ghtrack::run(scene, truth, contenders, observers, frames);
   } catch (Interrupted& interrupted) {
     files.keep_partial();
     nlohmann::ordered_json so_far = to_json(metrics.report());
     so_far["partial"] = true;
     write_partial_file(folder / "metrics.json", so_far.dump(2) + "\n");
-    if (frames) frames->writer().keep_partial();
+    if (film) film->writer().keep_partial();
     results.keep_partial();
     interrupted.remark = fmt::format("{} holds what was done so far, in files named .partial",
                                      results.path().string());
@@ -84,18 +91,13 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   }
 
   RunReport report = metrics.report();
-  report.counts = counts;
-  if (frames) frames->writer().finish();
+  report.counts = counts.front();
+  if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", to_json(report).dump(2) + "\n");
   files.commit();
   results.commit();
-  if (world.missed_collisions() > 0 && !manners.quiet) {
-    tell(
-        "ghtrack: warning: {} collisions were passed over, too fast for steps of 1/{} s; a "
-        "higher physics.rate resolves them",
-        world.missed_collisions(), scene.physics.rate);
-  }
+  if (!manners.quiet) warn_of_missed_collisions(truth, scene);
   print(to_table(report));
 }
 

@@ -4,19 +4,20 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <system_error>
 
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/run_watch.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
-#include "tools/cli/video_frames.hpp"
 #include "tools/cli/video_place.hpp"
 #include "tools/experiment/run_table.hpp"
 #include "tools/experiment/trial.hpp"
-#include "tools/film/contender.hpp"
+#include "tools/film/film.hpp"
 #include "tools/film/scene_drawing.hpp"
 #include "tools/record/result_folder.hpp"
 
@@ -31,42 +32,51 @@ std::string video_stem(const CampaignCell& cell, std::size_t index) {
   return fmt::format("{}-{}-run", name, index + 1);
 }
 
-/// Films one run of a cell: its filters side by side, or the scene's own tracker.
-void film(const CampaignCell& cell, int run, const fs::path& path, const Manners& manners) {
+/// Where a cell's run is filmed: its filters side by side, or the scene's own tracker.
+std::unique_ptr<film::Film> film_of(const Trial& trial, const CampaignCell& cell, int run,
+                                    const VideoPlace& place) {
   constexpr std::size_t kMostPanels = 6;
-  const WorldScene scene = scene_of_run(cell.scene, run);
-  const std::size_t filters = scene.compare.filters.size();
+  const std::size_t filters = trial.contenders().size();
   if (filters > kMostPanels) {
     throw UsageError(fmt::format("compare: a video has room for {} filters, {} names {}",
                                  kMostPanels, printable(cell.file), filters));
   }
-  World world = world_of_run(cell.scene, run);
-  VideoPlace place(path);
-  VideoFrames frames(scene, world, film::video_options(scene, world, place.scratch_path()),
-                     filters > 1 ? film::contenders_of(scene) : std::vector<film::Contender>{},
-                     manners.quiet);
-  film_run(scene, world, frames, place);
-  frames.writer().finish();
-  place.commit();
-  if (!manners.quiet) tell("{}", path.string());
+  return std::make_unique<film::Film>(
+      scene_of_run(cell.scene, run), [&cell, run] { return world_of_run(cell.scene, run); },
+      film::video_options(cell.scene, trial.objects(), place.scratch_path()), trial.contenders(),
+      film::Shown{.first = 0, .count = filters}, stop_if_interrupted);
 }
 
 }  // namespace
 
 void replay_run(const Campaign& campaign, int run, const std::optional<fs::path>& films,
                 const Manners& manners) {
+  if (films) make_folder(*films);
   std::string rows = run_table_header();
-  for (const CampaignCell& cell : campaign.cells) {
+  for (std::size_t i = 0; i < campaign.cells.size(); ++i) {
+    const CampaignCell& cell = campaign.cells[i];
     const Trial trial(cell.scene, stop_if_interrupted);
-    rows += run_table_rows(cell, trial, run, trial.scores(run));
+    if (!films) {
+      rows += run_table_rows(cell, trial, run, trial.scores(run));
+      continue;
+    }
+    const fs::path path = *films / (video_stem(cell, i) + std::to_string(run) + ".mp4");
+    VideoPlace place(path);
+    const auto film = film_of(trial, cell, run, place);
+    RunWatch watch(film->frame_times().size(), manners.quiet);
+    try {
+      rows += run_table_rows(cell, trial, run,
+                             trial.scores(run, film->truth(), {&watch, film.get()},
+                                          film->frame_times()));
+    } catch (Interrupted& interrupted) {
+      keep_partial(*film, place, interrupted);
+      throw;
+    }
+    film->writer().finish();
+    place.commit();
+    if (!manners.quiet) tell("{}", path.string());
   }
   print(rows);
-  if (!films) return;
-  make_folder(*films);
-  for (std::size_t i = 0; i < campaign.cells.size(); ++i) {
-    const std::string name = video_stem(campaign.cells[i], i) + std::to_string(run) + ".mp4";
-    film(campaign.cells[i], run, *films / name, manners);
-  }
 }
 
 std::vector<ReportVideo> videos_in(const fs::path& folder, const Campaign& campaign) {

@@ -12,7 +12,7 @@
 #include "tools/cli/messages.hpp"
 #include "tools/film/belief_plot.hpp"
 #include "tools/film/series_plot.hpp"
-#include "tools/pipeline/series.hpp"
+#include "tools/run/series.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
 #include "tools/render/plot.hpp"

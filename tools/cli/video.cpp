@@ -12,15 +12,17 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/panels.hpp"
+#include "tools/cli/run_watch.hpp"
 #include "tools/cli/scene_source.hpp"
 #include "tools/cli/usage_error.hpp"
-#include "tools/cli/video_frames.hpp"
 #include "tools/cli/video_look.hpp"
 #include "tools/cli/video_place.hpp"
+#include "tools/film/film.hpp"
 #include "tools/film/scene_drawing.hpp"
-#include "tools/pipeline/simulation.hpp"
 #include "tools/record/result_folder.hpp"
 #include "tools/render/output_path.hpp"
+#include "tools/run/run.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -45,20 +47,6 @@ render::VideoOptions changed_by(const VideoCommandOptions& options, render::Vide
   return video;
 }
 
-/// The filters that the scene names under `compare`.
-std::vector<film::Contender> contenders_of(const WorldScene& scene) {
-  constexpr std::size_t kFewest = 2;
-  constexpr std::size_t kMost = 6;
-  const std::size_t count = scene.compare.filters.size();
-  if (count < kFewest || count > kMost) {
-    throw UsageError(
-        fmt::format("video: --compare needs {} to {} filters under `compare: {{filters: …}}` of "
-                    "the scene, which has {}",
-                    kFewest, kMost, count));
-  }
-  return film::contenders_of(scene);
-}
-
 }  // namespace
 
 int video(const VideoCommandOptions& options, const Manners& manners) {
@@ -75,17 +63,24 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
     path = folder / "video.mp4";
   }
   if (!options.poster.empty()) render::check_output_path(options.poster, {"png"});
-  std::vector<film::Contender> contenders;
-  if (options.compare) contenders = contenders_of(*scene);
-  World world = make_world(*scene);
-  render::VideoOptions wanted = changed_by(options, film::video_options(*scene, world, path));
+  const std::vector<Contender> contenders =
+      options.compare ? filters_side_by_side(*scene, "video") : std::vector{own_tracker(*scene)};
+  render::VideoOptions wanted =
+      changed_by(options, film::video_options(*scene, make_world(*scene).objects(), path));
   render::check_request(wanted);
   VideoPlace place(path);
   wanted.path = place.scratch_path();
-  VideoFrames frames(*scene, world, wanted, std::move(contenders), manners.quiet);
-  film_run(*scene, world, frames, place);
-  if (!options.poster.empty()) frames.writer().write_poster(options.poster);
-  frames.writer().finish();
+  film::Film film(*scene, [scene] { return make_world(*scene); }, wanted, contenders,
+                  {.first = 0, .count = contenders.size()}, stop_if_interrupted);
+  RunWatch watch(film.frame_times().size(), manners.quiet);
+  try {
+    ghtrack::run(*scene, film.truth(), contenders, {&watch, &film}, film.frame_times());
+  } catch (Interrupted& interrupted) {
+    keep_partial(film, place, interrupted);
+    throw;
+  }
+  if (!options.poster.empty()) film.writer().write_poster(options.poster);
+  film.writer().finish();
   place.commit();
   if (!manners.quiet) tell("{}: {}", scene->name, path.string());
   return 0;

@@ -7,7 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "tools/experiment/guided.hpp"
+#include "tools/experiment/engine.hpp"
+#include "tools/experiment/labelled_objects.hpp"
 #include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {
@@ -16,8 +17,8 @@ namespace {
 constexpr int kTheoryRuns = 8;         // over which theory averages what differs between runs
 constexpr std::size_t kIndices = 19;   // tracking indices 10^-3.5, … 10^2.5
 constexpr std::size_t kGridSide = 20;  // of a gain surface
-constexpr std::size_t kTheorySightings = 100'000;  // of each run
-constexpr std::size_t kSurfaceSightings = 4000;
+constexpr std::size_t kTheoryScans = 100'000;  // of each run
+constexpr std::size_t kSurfaceScans = 4000;
 
 bool belongs_to(ObjectId id, const Subject& subject) {
   return std::binary_search(subject.objects.begin(), subject.objects.end(), id);
@@ -49,29 +50,25 @@ std::vector<GainFilter<2>> candidates(const RunMetricsOptions& sensor) {
 
 /// Sums over the truth of some objects.
 struct TheorySum {
-  std::vector<ErrorSum> candidates;
+  std::vector<SquaredErrors> candidates;
   double square_acceleration = 0.0;
   double square_jerk = 0.0;
   std::int64_t scans = 0;
   std::int64_t steps = 0;
 
-  void add(const SightedObject& object, const std::vector<GainFilter<2>>& filters) {
-    candidates.resize(filters.size());
-    for (std::size_t i = 0; i < filters.size(); ++i) {
-      candidates[i] += expected_errors(filters[i], object);
-    }
+  void add(const LabelledObject& object) {
     const TruthState* before = nullptr;
     double before_time = 0.0;
-    for (const ObjectScan& sighting : object.sightings) {
-      square_acceleration += sighting.truth.acceleration.squaredNorm();
+    for (const ObjectScan& scan : object.scans) {
+      square_acceleration += scan.truth.acceleration.squaredNorm();
       ++scans;
-      if (before != nullptr && sighting.time > before_time) {
-        const Vec2 change = sighting.truth.acceleration - before->acceleration;
-        square_jerk += (change / (sighting.time - before_time)).squaredNorm();
+      if (before != nullptr && scan.time > before_time) {
+        const Vec2 change = scan.truth.acceleration - before->acceleration;
+        square_jerk += (change / (scan.time - before_time)).squaredNorm();
         ++steps;
       }
-      before = &sighting.truth;
-      before_time = sighting.time;
+      before = &scan.truth;
+      before_time = scan.time;
     }
   }
 
@@ -89,10 +86,10 @@ struct TheorySum {
     SubjectTheory theory;
     if (scans > 0) theory.square_acceleration = square_acceleration / static_cast<double>(scans);
     if (steps > 0) theory.square_jerk = square_jerk / static_cast<double>(steps);
-    for (const ErrorSum& candidate : candidates) {
-      if (candidate.scans == 0) continue;
-      const double position = candidate.rmse_position();
-      const double velocity = candidate.rmse_velocity();
+    for (const SquaredErrors& candidate : candidates) {
+      if (!candidate.position.root()) continue;
+      const double position = *candidate.position.root();
+      const double velocity = *candidate.velocity.root();
       theory.bound_position = std::min(position, theory.bound_position.value_or(position));
       theory.bound_velocity = std::min(velocity, theory.bound_velocity.value_or(velocity));
     }
@@ -112,38 +109,31 @@ std::vector<Item> thinned(const std::vector<Item>& items, std::size_t most) {
   return kept;
 }
 
-/// Gathers run 0 for a picture: scan by scan, one tracker per contender.
-class ExampleRecorder {
+/// Gathers a run for a picture.
+class ExampleRecorder final : public RunObserver {
  public:
-  explicit ExampleRecorder(const Trial& trial)
-      : trial_(trial), tracks_(trial.contenders().size()) {
-    for (std::size_t i = 0; i < tracks_.size(); ++i) trackers_.push_back(trial.tracker(i));
+  explicit ExampleRecorder(const Trial& trial) : tracks_(trial.contenders().size()) {
     for (const ObjectInfo& object : trial.objects()) {
       example_.truth.push_back({object.name, object.regime, {}});
     }
   }
 
-  void sense(const SensedScan& scan) {
-    for (const TruthState& object : scan.truth->objects) {
+  void add_observation(const TruthSnapshot& truth, const Observation& observation) override {
+    for (const TruthState& object : truth.objects) {
       example_.truth[static_cast<std::size_t>(object.id)].points.push_back(
-          point(scan.truth->time, object.position));
+          point(truth.time, object.position));
     }
-    const Observation& observation = scan.observation;
     for (std::size_t i = 0; i < observation.origins.size(); ++i) {
       auto& points =
           observation.origins[i] == kClutterOrigin ? example_.clutter : example_.detections;
-      points.push_back(point(scan.truth->time, observation.scan.detections[i].position));
+      points.push_back(point(truth.time, observation.scan.detections[i].position));
     }
   }
 
-  void track(const SensedScan& sensed) {
-    for (std::size_t i = 0; i < trackers_.size(); ++i) {
-      trackers_[i].step(sensed.observation);
-      const TrackSnapshot now = trackers_[i].snapshot();
-      for (const TrackEstimate& track : now.tracks) {
-        if (track.status == TrackStatus::kTentative) continue;
-        tracks_[i][track.id].push_back(point(now.time, track.position));
-      }
+  void add_tracks(const StepRecord& record) override {
+    for (const TrackEstimate& track : record.tracks.tracks) {
+      if (track.status == TrackStatus::kTentative) continue;
+      tracks_[record.contender][track.id].push_back(point(record.tracks.time, track.position));
     }
   }
 
@@ -178,23 +168,21 @@ class ExampleRecorder {
     return {time, position.x(), position.y()};
   }
 
-  const Trial& trial_;
-  std::vector<SceneTracker> trackers_;
   std::vector<std::map<int, std::vector<ExampleRun::Point>>> tracks_;  // by contender and track
   ExampleRun example_;
 };
 
 /// Those of the objects that belong to a regime.
-std::vector<SightedObject> objects_of(const std::vector<SightedObject>& objects,
+std::vector<LabelledObject> objects_of(const std::vector<LabelledObject>& objects,
                                       const Subject& regime) {
-  std::vector<SightedObject> chosen;
+  std::vector<LabelledObject> chosen;
   std::copy_if(objects.begin(), objects.end(), std::back_inserter(chosen),
-               [&](const SightedObject& object) { return belongs_to(object.id, regime); });
+               [&](const LabelledObject& object) { return belongs_to(object.id, regime); });
   return chosen;
 }
 
 GainSurface surface_of(const Trial& trial, const std::string& regime,
-                       const std::vector<SightedObject>& objects) {
+                       const std::vector<LabelledObject>& objects) {
   GainSurface surface{.regime = regime, .g = {}, .h = {}, .rmse = {}, .best = {}, .marks = {}};
   for (std::size_t i = 0; i < kGridSide; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(kGridSide - 1);
@@ -205,13 +193,13 @@ GainSurface surface_of(const Trial& trial, const std::string& regime,
   for (const double g : surface.g) {
     for (const double h : surface.h) {
       const Gains gains = Gains::of_gh(g, h);
-      ErrorSum sum;
+      SquaredErrors sum;
       if (is_stable(gains)) {
         const GainFilter<2> filter =
             plain_filter(gains, trial.scoring().sigma, trial.scoring().period);
-        for (const SightedObject& object : objects) sum += expected_errors(filter, object);
+        for (const LabelledObject& object : objects) sum += expected_errors(filter, object);
       }
-      surface.rmse.push_back(sum.rmse_position());
+      surface.rmse.push_back(or_nan(sum.position.root()));
       if (!(surface.rmse.back() < least)) continue;
       least = surface.rmse.back();
       surface.best = gains;
@@ -227,14 +215,25 @@ GainSurface surface_of(const Trial& trial, const std::string& regime,
 
 }  // namespace
 
-std::vector<SubjectTheory> theory_of(const Trial& trial) {
+int theory_runs(const WorldScene& scene) { return std::min(kTheoryRuns, scene.compare.runs); }
+
+std::vector<SubjectTheory> theory_of(const Trial& trial, std::span<const RunTruth> truths,
+                                     int jobs) {
   const std::vector<GainFilter<2>> filters = candidates(trial.scoring());
   std::vector<TheorySum> of_objects(trial.objects().size());
-  const std::vector<ObjectId> objects = some_objects(trial, kTheorySightings);
-  const int runs = std::min(kTheoryRuns, trial.scene().compare.runs);
-  for (int run = 0; run < runs; ++run) {
-    for (const SightedObject& object : sightings_of(trial, run, objects)) {
-      of_objects[static_cast<std::size_t>(object.id)].add(object, filters);
+  for (TheorySum& sum : of_objects) sum.candidates.resize(filters.size());
+  const std::vector<ObjectId> wanted = some_objects(trial, kTheoryScans);
+  for (std::size_t run = 0; run < truths.size(); ++run) {
+    const std::vector<LabelledObject> objects =
+        labelled_objects(trial, static_cast<int>(run), truths[run], wanted);
+    in_parallel(objects.size() * filters.size(), jobs, [&](std::size_t i) {
+      const LabelledObject& object = objects[i / filters.size()];
+      const std::size_t filter = i % filters.size();
+      of_objects[static_cast<std::size_t>(object.id)].candidates[filter] +=
+          expected_errors(filters[filter], object);
+    });
+    for (const LabelledObject& object : objects) {
+      of_objects[static_cast<std::size_t>(object.id)].add(object);
     }
   }
   std::vector<SubjectTheory> theory;
@@ -249,25 +248,21 @@ std::vector<SubjectTheory> theory_of(const Trial& trial) {
   return theory;
 }
 
-std::vector<GainSurface> gain_surfaces(const Trial& trial) {
-  const std::vector<SightedObject> objects =
-      sightings_of(trial, 0, some_objects(trial, kSurfaceSightings));
+std::vector<GainSurface> gain_surfaces(const Trial& trial, const RunTruth& truth) {
+  const std::vector<LabelledObject> objects =
+      labelled_objects(trial, 0, truth, some_objects(trial, kSurfaceScans));
   std::vector<GainSurface> surfaces;
   for (const Subject& subject : trial.subjects()) {
     if (subject.regime.empty() || !subject.object.empty()) continue;
-    const std::vector<SightedObject> own = objects_of(objects, subject);
+    const std::vector<LabelledObject> own = objects_of(objects, subject);
     if (!own.empty()) surfaces.push_back(surface_of(trial, subject.regime, own));
   }
   return surfaces;
 }
 
-ExampleRun example_of(const Trial& trial) {
-  const WorldScene scene = scene_of_run(trial.scene(), 0);
-  const Setting setting{.objects = trial.objects(), .classes = regime_kinds(), .seed = scene.seed};
+ExampleRun example_of(const Trial& trial, const RunTruth& truth) {
   ExampleRecorder recorder(trial);
-  sense(
-      scene, setting, trial.truth_of(0), [&](const SensedScan& scan) { recorder.sense(scan); },
-      [&](const SensedScan& scan) { recorder.track(scan); });
+  trial.listen(0, *truth.source(), trial.contenders(), {&recorder});
   return std::move(recorder).example();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tools/experiment/comparison.hpp"
@@ -23,12 +24,18 @@ struct SubjectTheory {
 /// decade, the best one chosen afterwards. For motion that is linear and Gaussian none can do
 /// better. Of the error ellipses of detections only the axes x and y count, so behind a radar,
 /// which has long and slanting ones, a filter may do better than this bound.
-std::vector<SubjectTheory> theory_of(const Trial& trial);
+/// @param truths  of the first runs
+/// @param jobs    threads; the outcome does not depend on them
+std::vector<SubjectTheory> theory_of(const Trial& trial, std::span<const RunTruth> truths,
+                                     int jobs);
+
+/// Over how many of a cell's first runs theory averages what differs between runs.
+int theory_runs(const WorldScene& scene);
 
 /// The expected RMSE of position over a grid of g and h, for each regime, on run 0.
-std::vector<GainSurface> gain_surfaces(const Trial& trial);
+std::vector<GainSurface> gain_surfaces(const Trial& trial, const RunTruth& truth);
 
 /// Run 0 of a cell, thinned out for a picture.
-ExampleRun example_of(const Trial& trial);
+ExampleRun example_of(const Trial& trial, const RunTruth& truth);
 
 }  // namespace ghtrack

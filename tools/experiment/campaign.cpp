@@ -7,9 +7,9 @@
 
 #include "scenes/schema/reader.hpp"
 #include "scenes/schema/writer.hpp"
-#include "tools/pipeline/simulation.hpp"
 #include "tools/record/csv_writer.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/run/truth_source.hpp"
 
 namespace ghtrack {
 namespace {
@@ -137,15 +137,6 @@ Campaign read_back(std::string_view text, const std::string& file) try {
   return campaign;
 } catch (const Json::exception&) {
   throw InputError(file + ": error: does not say which campaign its runs are of");
-}
-
-std::vector<Contender> compared_filters(const WorldScene& scene) {
-  if (scene.compare.filters.empty()) return {{"scene", scene.tracker.filters}};
-  std::vector<Contender> contenders;
-  for (const auto& [name, filter] : scene.compare.filters) {
-    contenders.push_back({name, {{std::string(TrackerConfig::kDefaultFilter), filter}}});
-  }
-  return contenders;
 }
 
 WorldScene scene_of_run(const WorldScene& scene, int run) {

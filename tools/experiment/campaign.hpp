@@ -13,12 +13,6 @@
 
 namespace ghtrack {
 
-/// What a campaign compares: one filter for all targets, or one for each class, under a name.
-struct Contender {
-  std::string name;
-  std::map<std::string, FilterConfig> filters;  // as in TrackerConfig
-};
-
 /// One scene with one set of sweep values. Its seed is that of run 0, `compare.runs` says how many
 /// runs there are, `compare.filters` what is compared.
 struct CampaignCell {
@@ -56,11 +50,7 @@ std::string write_campaign(const Campaign& campaign);
 /// @throws InputError if the text is not of a campaign
 Campaign read_back(std::string_view text, const std::string& file);
 
-/// The filters to compare, by name; without any under `compare` the scene's own tracker alone.
-std::vector<Contender> compared_filters(const WorldScene& scene);
-
-/// The scene of one run, which `run(scene, world, …)` turns into that run: its seed chooses the
-/// noise of the sensors.
+/// The scene of one run: its seed chooses the noise of the sensors.
 WorldScene scene_of_run(const WorldScene& scene, int run);
 
 /// Whether all runs of a scene have the same truth.

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "tools/experiment/analysis.hpp"
 #include "tools/experiment/engine.hpp"
+#include "tools/experiment/shared_truth.hpp"
 #include "tools/experiment/trial.hpp"
 
 namespace ghtrack {
@@ -46,15 +49,17 @@ class CellReduction {
   CellReduction(const Trial& trial, RunValues values)
       : trial_(trial), layout_(trial.layout()), values_(std::move(values)) {}
 
-  std::vector<ComparisonRow> rows() const {
-    const std::vector<SubjectTheory> theory = theory_of(trial_);
+  /// @param theory  of the trial's subjects
+  std::vector<ComparisonRow> rows(const std::vector<SubjectTheory>& theory, int jobs) const {
+    std::vector<std::vector<ComparisonRow>> parts(trial_.subjects().size() * kMetrics);
+    in_parallel(parts.size(), jobs, [&](std::size_t i) {
+      trial_.step();
+      const std::size_t subject = i / kMetrics;
+      parts[i] = rows_of(subject, all_metrics()[i % kMetrics], theory[subject]);
+    });
     std::vector<ComparisonRow> all;
-    for (std::size_t subject = 0; subject < trial_.subjects().size(); ++subject) {
-      for (const Metric metric : all_metrics()) {
-        trial_.step();
-        std::vector<ComparisonRow> rows = rows_of(subject, metric, theory[subject]);
-        all.insert(all.end(), rows.begin(), rows.end());
-      }
+    for (const std::vector<ComparisonRow>& part : parts) {
+      all.insert(all.end(), part.begin(), part.end());
     }
     return all;
   }
@@ -132,21 +137,21 @@ class CellReduction {
           paired_difference(values[i], values[*best], metric.averaging, confidence);
       if (!std::isnan(difference.value)) row.difference = difference.value;
       row.difference_ci95 = difference.interval;
-      if (!difference.interval) return clear_verdicts(rows);
+      if (!difference.interval) return forget_significance(rows);
       const Interval& range = *difference.interval;
       const bool worse = sign > 0.0 ? range.low > 0.0 : range.high < 0.0;
-      row.verdict = worse || followed[i] < enough ? Verdict::kWorse : Verdict::kTied;
-      alone = alone && row.verdict == Verdict::kWorse;
+      row.significance = worse || followed[i] < enough ? Significance::kWorse : Significance::kTied;
+      alone = alone && row.significance == Significance::kWorse;
     }
-    rows[*best].verdict = alone ? Verdict::kBest : Verdict::kTied;
+    rows[*best].significance = alone ? Significance::kBest : Significance::kTied;
   }
 
-  static void clear_verdicts(std::vector<ComparisonRow>& rows) {
-    for (ComparisonRow& row : rows) row.verdict = Verdict::kNone;
+  static void forget_significance(std::vector<ComparisonRow>& rows) {
+    for (ComparisonRow& row : rows) row.significance = Significance::kNone;
   }
 
   std::string gains_of(std::size_t contender, const std::string& regime) const {
-    const std::map<std::string, FilterConfig>& filters = trial_.contenders()[contender].filters;
+    const std::map<std::string, FilterConfig>& filters = trial_.design(contender).config().filters;
     const bool same_for_all =
         filters.size() == 1 && filters.contains(std::string(TrackerConfig::kDefaultFilter));
     if (regime.empty() && !same_for_all) return "";
@@ -175,16 +180,17 @@ class CellReduction {
   RunValues values_;
 };
 
+/// @param truths  of the cell's first runs
 CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::size_t index,
+                       std::span<const RunTruth> truths, int jobs,
                        const std::function<void()>& on_step) {
-  Trial trial(cell.scene, on_step);
-  trial.record_truth();
+  const Trial trial(cell.scene, on_step);
   const CellReduction reduction(trial, RunValues(results, index, cell.runs()));
   CellOutcome outcome;
   for (const Contender& contender : trial.contenders()) {
     outcome.contenders.push_back(contender.name);
   }
-  outcome.rows = reduction.rows();
+  outcome.rows = reduction.rows(theory_of(trial, truths, jobs), jobs);
   outcome.cell = {.scene = cell.scene.name,
                   .file = cell.file,
                   .sweep = cell.sweep,
@@ -195,8 +201,8 @@ CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::si
                   .period = trial.scoring().period,
                   .regimes = trial.regimes(),
                   .curves = reduction.curves(),
-                  .example = example_of(trial),
-                  .surfaces = gain_surfaces(trial)};
+                  .example = example_of(trial, truths.front()),
+                  .surfaces = gain_surfaces(trial, truths.front())};
   return outcome;
 }
 
@@ -223,9 +229,24 @@ void renumber(CellOutcome& outcome, std::vector<std::string>& filters) {
 Comparison compare(const Campaign& campaign, const Results& results, int jobs,
                    const std::function<void()>& on_step) {
   std::vector<CellOutcome> outcomes(campaign.cells.size());
-  in_parallel(outcomes.size(), jobs, [&](std::size_t i) {
-    outcomes[i] = outcome_of(campaign.cells[i], results, i, on_step);
-  });
+  for (const CellGroup& group : groups_by_truth(campaign, on_step)) {
+    int runs = 0;
+    for (const std::size_t i : group.cells) {
+      runs = std::max(runs, theory_runs(campaign.cells[i].scene));
+    }
+    std::vector<std::optional<RunTruth>> recorded(static_cast<std::size_t>(runs));
+    in_parallel(recorded.size(), jobs, [&](std::size_t run) {
+      recorded[run] = group.truth->of_run(static_cast<int>(run), true);
+    });
+    std::vector<RunTruth> truths;
+    for (const std::optional<RunTruth>& truth : recorded) truths.push_back(*truth);
+    in_parallel(group.cells.size(), jobs, [&](std::size_t i) {
+      const CampaignCell& cell = campaign.cells[group.cells[i]];
+      const auto own = std::span<const RunTruth>(truths).first(
+          static_cast<std::size_t>(theory_runs(cell.scene)));
+      outcomes[group.cells[i]] = outcome_of(cell, results, group.cells[i], own, jobs, on_step);
+    });
+  }
   Comparison comparison;
   for (CellOutcome& outcome : outcomes) {
     renumber(outcome, comparison.filters);
@@ -238,15 +259,15 @@ Comparison compare(const Campaign& campaign, const Results& results, int jobs,
   return comparison;
 }
 
-std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kNone:
+std::string_view to_string(Significance significance) {
+  switch (significance) {
+    case Significance::kNone:
       return "";
-    case Verdict::kBest:
+    case Significance::kBest:
       return "best";
-    case Verdict::kTied:
+    case Significance::kTied:
       return "tied";
-    case Verdict::kWorse:
+    case Significance::kWorse:
       return "worse";
   }
   return "";

@@ -20,13 +20,13 @@ namespace ghtrack {
 
 /// Whether a filter is better than all others, judged by 95 % intervals of its differences to the
 /// best one on the same runs, which hold for all filters together (Bonferroni).
-enum class Verdict {
+enum class Significance {
   kNone,   // not comparable: one filter, a metric without better and worse, or too few runs
   kBest,   // better than every other filter
   kTied,   // the best, or not distinguishable from it
   kWorse,  // than the best
 };
-std::string_view to_string(Verdict verdict);
+std::string_view to_string(Significance significance);
 
 /// One filter's value of one metric for one subject: an object, all objects of a regime, or the
 /// scene as a whole.
@@ -44,7 +44,7 @@ struct ComparisonRow {
   std::int64_t runs = 0;             // in which the metric has a value
   std::optional<double> difference;  // to the best filter's mean; 0 for itself
   std::optional<Interval> difference_ci95;  // paired by runs; absent for the best itself
-  Verdict verdict = Verdict::kNone;
+  Significance significance = Significance::kNone;
 };
 
 /// RMSE of position over all objects of a regime, as it develops over the scene's time.

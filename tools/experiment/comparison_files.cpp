@@ -55,7 +55,7 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
           {"runs", row.runs},
           {"difference", number(row.difference)},
           {"difference_ci95", range(row.difference_ci95)},
-          {"verdict", to_string(row.verdict)}};
+          {"verdict", to_string(row.significance)}};
 }
 
 Json curve_json(const ErrorCurve& curve, const Comparison& comparison) {
@@ -87,8 +87,8 @@ std::string title_of(const ComparedCell& cell) {
 std::string cell_text(const ComparisonRow& row) {
   std::string text = fmt::format("{:.3g}", row.mean);
   if (row.ci95) text += fmt::format(" ±{:.1g}", 0.5 * (row.ci95->high - row.ci95->low));
-  if (row.verdict == Verdict::kBest) text += " *";
-  if (row.verdict == Verdict::kTied) text += " =";
+  if (row.significance == Significance::kBest) text += " *";
+  if (row.significance == Significance::kTied) text += " =";
   return text;
 }
 
@@ -109,7 +109,7 @@ std::string comparison_csv(const Comparison& comparison) {
          << info(row.metric).name << row.mean << low(row.ci95) << high(row.ci95) << row.predicted
          << row.runs << cell.sweep << info(row.metric).unit << interval_kind(row.metric)
          << row.bound << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
-         << to_string(row.verdict);
+         << to_string(row.significance);
     line.end();
     text += line.text();
   }

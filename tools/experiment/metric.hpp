@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 #include "tools/experiment/statistics.hpp"
+#include "tools/metrics/run_metrics.hpp"
 
 namespace ghtrack {
 
@@ -22,9 +24,18 @@ enum class Metric {
   kTrackLosses,   // times that the track of an object ended or was replaced
   kGospa,         // mean over the scans [m]; of the scene as a whole
   kIdSwitches,    // of the scene as a whole
+  kFalseTracks,   // mean over the scans; of the scene as a whole
+  kCount,         // not a metric: add yours before
 };
-inline constexpr std::size_t kMetrics = 11;
+inline constexpr auto kMetrics = static_cast<std::size_t>(Metric::kCount);
 std::array<Metric, kMetrics> all_metrics();
+
+/// What a metric is computed from: one contender's report of a run, and whom it is about.
+struct SubjectReport {
+  const RunReport& run;
+  std::span<const ObjectId> objects;
+  bool is_scene = false;  // as a whole
+};
 
 /// Which way a metric is better.
 enum class Better { kLess, kMore, kNeither };
@@ -36,6 +47,8 @@ struct MetricInfo {
   std::string_view meaning;  // one clause
   Better better = Better::kLess;
   Averaging averaging = {};
+  double (*value)(const SubjectReport&) = nullptr;      // of a run; NaN if it did not occur
+  double (*predicted)(const SubjectReport&) = nullptr;  // by closed forms; null: there are none
 };
 const MetricInfo& info(Metric metric);
 

@@ -4,14 +4,15 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "tools/experiment/campaign.hpp"
 #include "tools/experiment/metric.hpp"
+#include "tools/experiment/shared_truth.hpp"
 #include "tools/metrics/run_metrics.hpp"
-#include "tools/pipeline/scene_tracker.hpp"
-#include "tools/pipeline/sensing.hpp"
+#include "tools/run/run.hpp"
 
 namespace ghtrack {
 
@@ -68,24 +69,29 @@ class Trial {
   const std::vector<Contender>& contenders() const { return contenders_; }
   const std::vector<Subject>& subjects() const { return subjects_; }
   const std::vector<std::string>& regimes() const { return regimes_; }
-  const TrackerDesign& design(std::size_t contender) const { return tracker(contender).design(); }
-  /// A contender's tracker before its first scan: copy it for a run.
-  const SceneTracker& tracker(std::size_t contender) const { return trackers_.at(contender); }
+  const TrackerDesign& design(std::size_t contender) const {
+    return contenders_.at(contender).tracker.design();
+  }
   const RunMetricsOptions& scoring() const { return scoring_; }
   TrialLayout layout() const { return {contenders_.size(), subjects_.size(), regimes_.size()}; }
 
-  /// Simulates the truth once for all runs to come, where they share it and it fits into memory.
-  /// Without it every run simulates its own.
-  void record_truth();
-
-  /// The truth of one run, scan by scan in the order of time.
-  TruthSource truth_of(int run) const;
+  /// The truth of one run, for who does not share it with other cells.
+  RunTruth truth_of(int run, bool is_reused = false) const { return truth_.of_run(run, is_reused); }
 
   /// Runs every contender on the same detections and scores them.
   /// @return numbers as layout() says
   std::vector<double> scores(int run) const;
 
-  /// A step of work on this trial is done: each scan of truth_of() is one.
+  /// The same while others listen.
+  std::vector<double> scores(int run, TruthSource& truth, RunObservers observers,
+                             std::span<const double> frame_times = {}) const;
+
+  /// Lets others listen to a run; each of its scans is a step of work.
+  /// @param contenders  all of them, or none if only the detections matter
+  void listen(int run, TruthSource& truth, std::span<const Contender> contenders,
+              RunObservers observers, std::span<const double> frame_times = {}) const;
+
+  /// A step of work on this trial is done.
   void step() const { on_step_(); }
 
  private:
@@ -93,11 +99,10 @@ class Trial {
   std::function<void()> on_step_;
   std::vector<ObjectInfo> objects_;
   std::vector<Contender> contenders_;
-  std::vector<SceneTracker> trackers_;
   std::vector<std::string> regimes_;
   std::vector<Subject> subjects_;
   RunMetricsOptions scoring_;
-  std::vector<std::shared_ptr<const TruthSnapshot>> truth_;  // by scan; empty: not recorded
+  SharedTruth truth_;
 };
 
 }  // namespace ghtrack

@@ -10,18 +10,18 @@
 #include "tools/experiment/analysis.hpp"
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/gain_search.hpp"
-#include "tools/experiment/guided.hpp"
+#include "tools/experiment/labelled_objects.hpp"
 #include "tools/experiment/statistics.hpp"
 #include "tools/experiment/trial.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kMostSightings = 200'000;  // that one evaluation goes through, of all regimes
+constexpr std::size_t kMostScans = 200'000;  // that one evaluation goes through, of all regimes
 constexpr Averaging kRootMeanSquare = {.mean_square = true};
 
 /// One regime's objects in several runs.
-using Runs = std::vector<std::vector<SightedObject>>;
+using Runs = std::vector<std::vector<LabelledObject>>;
 
 /// The filter that a scene makes of {gh: {g: …, h: …}}.
 Filter filter_with(const Gains& gains, const RunMetricsOptions& sensor) {
@@ -36,20 +36,20 @@ Filter filter_with(const Gains& gains, const RunMetricsOptions& sensor) {
 /// RMSE of each run; NaN where nothing was seen.
 std::vector<double> rmse_of_runs(const Filter& filter, const Runs& runs) {
   std::vector<double> all;
-  for (const std::vector<SightedObject>& run : runs) {
-    ErrorSum sum;
-    for (const SightedObject& object : run) sum += measured_errors(filter, object);
-    all.push_back(sum.rmse_position());
+  for (const std::vector<LabelledObject>& run : runs) {
+    SquaredErrors sum;
+    for (const LabelledObject& object : run) sum += measured_errors(filter, object);
+    all.push_back(or_nan(sum.position.root()));
   }
   return all;
 }
 
 double pooled_rmse(const Filter& filter, const Runs& runs) {
-  ErrorSum sum;
-  for (const std::vector<SightedObject>& run : runs) {
-    for (const SightedObject& object : run) sum += measured_errors(filter, object);
+  SquaredErrors sum;
+  for (const std::vector<LabelledObject>& run : runs) {
+    for (const LabelledObject& object : run) sum += measured_errors(filter, object);
   }
-  return sum.rmse_position();
+  return or_nan(sum.position.root());
 }
 
 /// A filter that is to be judged.
@@ -162,9 +162,9 @@ class RegimeTuner {
 /// The objects of one regime in all runs.
 Runs runs_of(const Runs& all, const Subject& regime) {
   Runs chosen;
-  for (const std::vector<SightedObject>& run : all) {
+  for (const std::vector<LabelledObject>& run : all) {
     std::copy_if(run.begin(), run.end(), std::back_inserter(chosen.emplace_back()),
-                 [&](const SightedObject& object) {
+                 [&](const LabelledObject& object) {
                    return std::binary_search(regime.objects.begin(), regime.objects.end(),
                                              object.id);
                  });
@@ -172,11 +172,12 @@ Runs runs_of(const Runs& all, const Subject& regime) {
   return chosen;
 }
 
-Runs sighted_runs(const Trial& trial, int first, const TuningOptions& options) {
+Runs labelled_runs(const Trial& trial, int first, const TuningOptions& options) {
   Runs runs(static_cast<std::size_t>(options.runs));
-  const std::vector<ObjectId> objects = some_objects(trial, kMostSightings / runs.size());
+  const std::vector<ObjectId> objects = some_objects(trial, kMostScans / runs.size());
   in_parallel(runs.size(), options.jobs, [&](std::size_t i) {
-    runs[i] = sightings_of(trial, first + static_cast<int>(i), objects);
+    const int run = first + static_cast<int>(i);
+    runs[i] = labelled_objects(trial, run, trial.truth_of(run), objects);
   });
   return runs;
 }
@@ -190,11 +191,12 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
       throw std::invalid_argument("there is no family of gains called '" + *options.rule + "'");
     }
   }
-  Trial trial(scene, on_step);
-  trial.record_truth();
-  const Runs training = sighted_runs(trial, 0, options);
-  const Runs judging = sighted_runs(trial, options.runs, options);
-  const std::vector<SubjectTheory> theory = theory_of(trial);
+  const Trial trial(scene, on_step);
+  const Runs training = labelled_runs(trial, 0, options);
+  const Runs judging = labelled_runs(trial, options.runs, options);
+  std::vector<RunTruth> truths;
+  for (int run = 0; run < theory_runs(scene); ++run) truths.push_back(trial.truth_of(run, true));
+  const std::vector<SubjectTheory> theory = theory_of(trial, truths, options.jobs);
 
   std::vector<std::size_t> regimes;  // among the subjects
   for (std::size_t i = 0; i < trial.subjects().size(); ++i) {
@@ -213,7 +215,7 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
                                     runs_of(judging, subject), options)
                             .result(theory[regimes[i]]);
   });
-  tuning.surfaces = gain_surfaces(trial);
+  tuning.surfaces = gain_surfaces(trial, truths.front());
   return tuning;
 }
 

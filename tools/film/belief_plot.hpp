@@ -3,7 +3,7 @@
 #include <string>
 
 #include "scenes/schema/series.hpp"
-#include "tools/pipeline/series.hpp"
+#include "tools/run/series.hpp"
 
 namespace ghtrack::film {
 

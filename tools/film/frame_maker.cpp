@@ -7,43 +7,34 @@
 
 namespace ghtrack::film {
 
-FrameMaker::FrameMaker(const WorldScene& scene, std::vector<Contender> contenders)
-    : contenders_(std::move(contenders)), score_(scoring_for(traits_of(scene.sensors)).gospa()) {
-  frame_.panels.resize(1);
+FrameMaker::FrameMaker(const WorldScene& scene, const Shown& shown, OnFrame on_frame)
+    : shown_(shown),
+      on_frame_(std::move(on_frame)),
+      scores_(shown.count, RunningScore(scoring_for(traits_of(scene.sensors)).gospa())) {
+  frame_.panels.resize(shown.count);
 }
 
-void FrameMaker::add_scan(const StepRecord& record) {
-  latest_[record.observation.scan.sensor] = record.observation;
-  if (contenders_.empty()) {
-    score_.add(record.truth, record.tracks);
-    frame_.panels.front() = {.tracks = record.tracks,
-                             .pairings = score_.pairings(),
-                             .gospa = score_.gospa(),
-                             .rmse = score_.rmse()};
+void FrameMaker::add_tracks(const StepRecord& record) {
+  if (record.contender == 0) {
+    latest_[record.observation.scan.sensor] = record.observation;
+    ++frame_.scans;
   }
-  for (Contender& contender : contenders_) {
-    contender.add(record.observation);
-    contender.score(record.truth);
-  }
-  ++frame_.scans;
+  const std::size_t panel = record.contender - shown_.first;
+  if (panel >= shown_.count) return;  // also before the first: the difference wraps around
+  RunningScore& score = scores_[panel];
+  if (record.is_in_order()) score.add(record.truth, record.tracks);
+  frame_.panels[panel] = {.tracks = record.tracks,
+                          .pairings = score.pairings(),
+                          .gospa = score.gospa(),
+                          .rmse = score.rmse()};
 }
 
-void FrameMaker::add_late_scan(const Observation& observation) {
-  latest_[observation.scan.sensor] = observation;
-  for (Contender& contender : contenders_) contender.add(observation);
-  ++frame_.scans;
-}
-
-const render::VideoFrame& FrameMaker::frame(const TruthSnapshot& truth) {
+void FrameMaker::add_frame(const TruthSnapshot& truth) {
   frame_.time = truth.time;
   frame_.truth = truth;
-  if (!contenders_.empty()) {
-    frame_.panels.clear();
-    for (const Contender& contender : contenders_) frame_.panels.push_back(contender.frame());
-  }
   frame_.observations.clear();
   for (const auto& [sensor, observation] : latest_) frame_.observations.push_back(observation);
-  return frame_;
+  on_frame_(frame_);
 }
 
 }  // namespace ghtrack::film

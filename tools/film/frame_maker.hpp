@@ -1,32 +1,38 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <vector>
 
 #include "scenes/schema/scene.hpp"
-#include "tools/film/contender.hpp"
 #include "tools/film/running_score.hpp"
-#include "tools/record/step_record.hpp"
+#include "tools/record/run_observer.hpp"
 #include "tools/render/video.hpp"
 
 namespace ghtrack::film {
 
+/// Which contenders of a run are shown, side by side if there are several.
+struct Shown {
+  std::size_t first = 0;
+  std::size_t count = 1;
+};
+
 /// Remembers what sensors and trackers said last, and puts it beside the truth of a frame's time:
 /// estimates are shown as they were known then.
-class FrameMaker {
+class FrameMaker final : public RunObserver {
  public:
-  /// @param contenders  shown side by side instead of the scene's own tracker; empty: none
-  FrameMaker(const WorldScene& scene, std::vector<Contender> contenders);
+  using OnFrame = std::function<void(const render::VideoFrame&)>;
 
-  void add_scan(const StepRecord& record);
-  void add_late_scan(const Observation& observation);
+  FrameMaker(const WorldScene& scene, const Shown& shown, OnFrame on_frame);
 
-  /// The frame of the truth's instant; valid until the next call.
-  const render::VideoFrame& frame(const TruthSnapshot& truth);
+  void add_tracks(const StepRecord& record) override;
+  void add_frame(const TruthSnapshot& truth) override;
 
  private:
-  std::vector<Contender> contenders_;
-  RunningScore score_;                 // of the scene's own tracker
+  Shown shown_;
+  OnFrame on_frame_;
+  std::vector<RunningScore> scores_;   // of those shown
   std::map<int, Observation> latest_;  // by sensor
   render::VideoFrame frame_;
 };

@@ -1,7 +1,6 @@
 #include "tools/film/running_score.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace ghtrack::film {
 namespace {
@@ -59,10 +58,8 @@ void RunningScore::add(const TruthSnapshot& truth, const TrackSnapshot& snapshot
   if (objects.ids.empty() && tracks.ids.empty()) return;
 
   const GospaResult all = ghtrack::gospa(objects.positions, tracks.positions, options_);
-  ++instants_;
-  gospa_sum_ += all.gospa;
-  for (const PointMatch& match : all.matches) square_sum_ += match.distance * match.distance;
-  errors_ += static_cast<int>(all.matches.size());
+  gospa_.add(all.gospa);
+  for (const PointMatch& match : all.matches) squared_errors_.add(match.distance * match.distance);
 
   if (pairings_.empty()) return append(objects, tracks, all, pairings_);
   const auto is_paired = [&](int render::Pairing::*member) {
@@ -75,16 +72,6 @@ void RunningScore::add(const TruthSnapshot& truth, const TrackSnapshot& snapshot
   const Places free_tracks = without(tracks, is_paired(&render::Pairing::track));
   append(free_objects, free_tracks,
          ghtrack::gospa(free_objects.positions, free_tracks.positions, options_), pairings_);
-}
-
-std::optional<double> RunningScore::gospa() const {
-  if (instants_ == 0) return std::nullopt;
-  return gospa_sum_ / instants_;
-}
-
-std::optional<double> RunningScore::rmse() const {
-  if (errors_ == 0) return std::nullopt;
-  return std::sqrt(square_sum_ / errors_);
 }
 
 }  // namespace ghtrack::film

@@ -5,6 +5,7 @@
 
 #include "sim/truth.hpp"
 #include "tools/metrics/gospa.hpp"
+#include "tools/metrics/mean.hpp"
 #include "tools/render/video.hpp"
 #include "tracker/track.hpp"
 
@@ -20,10 +21,10 @@ class RunningScore {
   void add(const TruthSnapshot& truth, const TrackSnapshot& tracks);
 
   /// Mean GOSPA of the instants with a target or a track [m].
-  std::optional<double> gospa() const;
+  std::optional<double> gospa() const { return gospa_.value(); }
 
   /// RMSE of the positions of tracks that are within GOSPA's cut-off of their target [m].
-  std::optional<double> rmse() const;
+  std::optional<double> rmse() const { return squared_errors_.root(); }
 
   /// Who follows whom at the last instant. A pair stays together as long as it is within the
   /// cut-off, as in CLEAR MOT; the rest is paired as GOSPA does.
@@ -31,10 +32,8 @@ class RunningScore {
 
  private:
   GospaOptions options_;
-  double gospa_sum_ = 0.0;  // [m]
-  int instants_ = 0;
-  double square_sum_ = 0.0;  // [m²]
-  int errors_ = 0;
+  Mean gospa_;           // [m]
+  Mean squared_errors_;  // [m²]
   std::vector<render::Pairing> pairings_;
 };
 

@@ -1,5 +1,7 @@
 #include "tools/film/scene_drawing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 #include <optional>
@@ -11,7 +13,6 @@
 #include "sensors/view_geometry.hpp"
 #include "sim/regimes/rail_line.hpp"
 #include "sim/regimes/train.hpp"
-#include "tools/pipeline/simulation.hpp"
 
 namespace ghtrack::film {
 namespace {
@@ -43,20 +44,17 @@ double strongest_wind(const Wind& wind, const render::Rectangle& area, double du
   return strongest;
 }
 
-std::optional<ObjectId> object_named(const World& world, const std::string& name) {
-  for (const ObjectInfo& object : world.objects()) {
+std::optional<ObjectId> object_named(const std::vector<ObjectInfo>& objects,
+                                     const std::optional<std::string>& name) {
+  for (const ObjectInfo& object : objects) {
     if (object.name == name) return object.id;
   }
   return std::nullopt;
 }
 
-std::optional<ObjectId> object_named(const World& world, const std::optional<std::string>& name) {
-  return name ? object_named(world, *name) : std::nullopt;
-}
-
 }  // namespace
 
-render::VideoOptions video_options(const WorldScene& scene, const World& world,
+render::VideoOptions video_options(const WorldScene& scene, const std::vector<ObjectInfo>& objects,
                                    const std::filesystem::path& path) {
   const VideoConfig config = scene.video.value_or(VideoConfig{});
   render::VideoOptions options;
@@ -68,24 +66,24 @@ render::VideoOptions video_options(const WorldScene& scene, const World& world,
   options.from = config.from;
   options.to = config.to;
   options.layers = render::Layers(config.show);
-  if (const auto target = object_named(world, config.follow)) {
+  if (const auto target = object_named(objects, config.follow)) {
     options.shots = {{.at = 0.0, .target = target, .center = {}, .width = config.follow_width}};
   }
   for (const VideoShot& shot : config.shots) {
-    options.shots.push_back({shot.at, object_named(world, shot.target), shot.center, shot.width});
+    options.shots.push_back({shot.at, object_named(objects, shot.target), shot.center, shot.width});
   }
   options.glide = config.glide;
   if (config.close_up) {
-    if (const auto target = object_named(world, config.close_up->target)) {
+    if (const auto target = object_named(objects, config.close_up->target)) {
       options.close_up = {*target, config.close_up->width, config.close_up->corner};
     }
   }
   return options;
 }
 
-render::SceneDrawing drawing_of(const WorldScene& scene, const World& world,
+render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, TruthSource& truth,
                                 std::vector<render::PanelDrawing> panels,
-                                const std::function<void()>& on_sample) {
+                                const std::function<void()>& on_step) {
   render::SceneDrawing drawing;
   drawing.panels = std::move(panels);
   drawing.title = scene.name;
@@ -97,10 +95,10 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world,
     }
   }
   drawing.objects = world.objects();
-  if (scene.video && scene.video->region.size() == 2) {
+  if (!needs_extent(scene)) {
     drawing.world = render::Rectangle{scene.video->region[0], scene.video->region[1]};
   } else {
-    drawing.world = render::bounding_rectangle(places_visited(scene, on_sample));
+    drawing.world = render::bounding_rectangle(places_visited(truth, scene.duration, on_step));
   }
   drawing.ground = scene.environment.ground;
   drawing.walls = scene.environment.walls;
@@ -115,6 +113,16 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world,
   drawing.wind = [&wind](const Vec2& place, double time) { return wind.at(place, time); };
   drawing.strongest_wind = strongest_wind(wind, render::world_of(drawing), scene.duration);
   return drawing;
+}
+
+bool needs_extent(const WorldScene& scene) {
+  return !scene.video || scene.video->region.size() != 2;
+}
+
+render::PanelDrawing panel_of(const Contender& contender) {
+  const Filter& filter =
+      contender.tracker.design().filter_for(TrackerConfig::kDefaultFilter, 0);
+  return {.name = contender.name, .gains = fmt::format("{} {}", name(filter), gains_text(filter))};
 }
 
 }  // namespace ghtrack::film

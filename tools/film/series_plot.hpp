@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/schema/series.hpp"
-#include "tools/pipeline/series.hpp"
+#include "tools/run/series.hpp"
 #include "tools/render/plot.hpp"
 
 namespace ghtrack::film {

@@ -41,9 +41,11 @@ RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors) {
   return scoring;
 }
 
-RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options)
+RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options,
+                       std::size_t contender)
     : objects_(std::move(objects)),
       options_(options),
+      contender_(contender),
       tallies_(objects_.size()),
       following_(objects_.size()),
       latest_errors_(objects_.size()),
@@ -66,6 +68,7 @@ void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& 
 }
 
 void RunMetrics::add_tracks(const StepRecord& record) {
+  if (record.contender != contender_ || !record.is_in_order()) return;
   if (floor_) floor_->go_to(record.tracks.time, record.tracks.sensor);
   score_sets(record);
   following_.update(record);

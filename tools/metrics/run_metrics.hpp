@@ -14,7 +14,7 @@
 #include "tools/metrics/mot_score.hpp"
 #include "tools/metrics/switches.hpp"
 #include "tools/record/run_counts.hpp"
-#include "tools/record/step_record.hpp"
+#include "tools/record/run_observer.hpp"
 
 namespace ghtrack {
 
@@ -96,19 +96,20 @@ struct RunReport {
 
 /// Scores a run scan by scan. Only confirmed and coasting tracks count as output. Memory does not
 /// grow with the number of scans, except as MotScore says.
-class RunMetrics {
+class RunMetrics final : public RunObserver {
  public:
   /// An error has settled at the first of so many scans in a row in which it stays below twice the
   /// sensor's 1-sigma noise.
   static constexpr int kCalmScans = 10;
 
-  RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options);
+  /// @param contender  whom to score
+  RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options,
+             std::size_t contender = 0);
 
-  /// What a sensor saw of the truth, in the order of time.
-  void add_observation(const TruthSnapshot& truth, const Observation& observation);
+  void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
 
-  /// What the tracker concluded from such a scan, in the order of time.
-  void add_tracks(const StepRecord& record);
+  /// Scans that came late are not scored.
+  void add_tracks(const StepRecord& record) override;
 
   RunReport report() const;
 
@@ -168,6 +169,7 @@ class RunMetrics {
 
   std::vector<ObjectInfo> objects_;
   RunMetricsOptions options_;
+  std::size_t contender_;
   std::vector<ObjectTally> tallies_;  // by object
   Following following_;
   std::vector<std::optional<Vec2>> latest_errors_;

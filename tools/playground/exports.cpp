@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "tools/pipeline/series.hpp"
+#include "tools/run/series.hpp"
 #include "tracker/filters/gain_filter.hpp"
 #include "tracker/filters/gains/analysis.hpp"
 

@@ -57,7 +57,9 @@ RunWriter::RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo
   origins_.write("t,sensor,x,y,truth_id\n");
 }
 
-void RunWriter::add_tracks(const TrackSnapshot& tracks) { tracks_.add(tracks); }
+void RunWriter::add_tracks(const StepRecord& record) {
+  if (record.contender == 0 && record.is_in_order()) tracks_.add(record.tracks);
+}
 
 void RunWriter::commit() {
   truth_.commit();

@@ -8,7 +8,7 @@
 
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
-#include "tools/record/step_record.hpp"
+#include "tools/record/run_observer.hpp"
 
 namespace ghtrack {
 
@@ -36,9 +36,9 @@ class TrackWriter {
 };
 
 /// Writes what happened in a run, scan by scan, into a folder: truth.csv, detections.csv,
-/// origins.csv and tracks.csv. The files get their names by commit(); without it, or
+/// origins.csv and, of contender 0, tracks.csv; late scans leave no row there. The files get their names by commit(); without it, or
 /// keep_partial(), none is left.
-class RunWriter {
+class RunWriter final : public RunObserver {
  public:
   /// @param folder   must exist
   /// @param sensors  names for the column `sensor`, by index; a sensor without a name is written as
@@ -47,11 +47,8 @@ class RunWriter {
   RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
             std::vector<std::string> sensors = {});
 
-  /// What a sensor saw of the truth, in the order of time.
-  void add_observation(const TruthSnapshot& truth, const Observation& observation);
-
-  /// What the tracker concluded, in the order of time.
-  void add_tracks(const TrackSnapshot& tracks);
+  void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
+  void add_tracks(const StepRecord& record) override;
 
   void commit();
 

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "scenes/schema/utf8.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/record/output_name.hpp"
 
@@ -82,25 +83,15 @@ const std::string& read_stream(const std::filesystem::path& path, int descriptor
   return text->second;
 }
 
-/// Length of the character at the start of the text if it is one that a text may hold: UTF-8
-/// without overlong forms and surrogates, no control character but tab and line ends; else 0.
-std::size_t text_character(const unsigned char* at, std::size_t left) {
-  const unsigned char lead = at[0];
-  if (lead < 0x80)
+/// Length of the character at the start of the text if it is one that a text may hold: UTF-8, no
+/// control character but tab and line ends; else 0.
+std::size_t text_character(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  if (lead < 0x80) {
     return lead >= 0x20 && lead != 0x7f ? 1 : lead == '\t' || lead == '\n' || lead == '\r';
-  const auto continues = [&](std::size_t i) { return i < left && (at[i] & 0xc0) == 0x80; };
-  if (lead < 0xc2 || !continues(1)) return 0;
-  if (lead < 0xe0) return 2;
-  if (!continues(2)) return 0;
-  if (lead < 0xf0) {
-    const bool overlong = lead == 0xe0 && at[1] < 0xa0;
-    const bool surrogate = lead == 0xed && at[1] >= 0xa0;
-    return overlong || surrogate ? 0 : 3;
   }
-  if (lead > 0xf4 || !continues(3)) return 0;
-  const bool overlong = lead == 0xf0 && at[1] < 0x90;
-  const bool too_large = lead == 0xf4 && at[1] >= 0x90;
-  return overlong || too_large ? 0 : 4;
+  const auto character = schema::first_character(text);
+  return character ? character->size : 0;
 }
 
 [[noreturn]] void refuse_at(const std::filesystem::path& path, std::string_view text,
@@ -111,14 +102,13 @@ std::size_t text_character(const unsigned char* at, std::size_t left) {
 }
 
 void check_text(const std::filesystem::path& path, std::string_view text) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
   std::size_t line_start = 0;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = text_character(bytes + i, text.size() - i);
+    const std::size_t length = text_character(text.substr(i));
     if (length == 0) {
       refuse_at(path, text, i, "this is no text: a control character, or a byte that is not UTF-8");
     }
-    if (bytes[i] == '\n') {
+    if (text[i] == '\n') {
       line_start = i + 1;
     } else if (i - line_start > kLongestLine) {
       refuse_at(path, text, i, "this line is longer than 64 KiB");

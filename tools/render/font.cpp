@@ -4,6 +4,10 @@
 #include <opencv2/freetype.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <utf8.h>
+
+#include <iterator>
+
 namespace ghtrack::render {
 
 namespace {
@@ -11,21 +15,9 @@ namespace {
 constexpr const char* kFontFolder = "/usr/share/fonts/truetype/dejavu/";
 constexpr double kHersheyHeight = 30.0;  // [px] of "Ag" at scale 1
 
-std::string utf8(char32_t character) {
+std::string as_utf8(char32_t character) {
   std::string text;
-  const auto tail = [&](int shift) {
-    text += static_cast<char>(0x80 | ((character >> shift) & 0x3F));
-  };
-  if (character < 0x80) {
-    text += static_cast<char>(character);
-  } else if (character < 0x800) {
-    text += static_cast<char>(0xC0 | (character >> 6));
-    tail(0);
-  } else {
-    text += static_cast<char>(0xE0 | (character >> 12));
-    tail(6);
-    tail(0);
-  }
+  utf8::append(character, std::back_inserter(text));
   return text;
 }
 
@@ -45,7 +37,7 @@ class Font::Face {
   void draw(cv::Mat& image, char32_t character, cv::Point pen, int height) const {
     const cv::Scalar white(255, 255, 255);
     if (outlines_)
-      outlines_->putText(image, utf8(character), pen, height, white, -1, cv::LINE_AA, true);
+      outlines_->putText(image, as_utf8(character), pen, height, white, -1, cv::LINE_AA, true);
     else
       cv::putText(image, strokes(character), pen, cv::FONT_HERSHEY_SIMPLEX, height / kHersheyHeight,
                   white, bold_ ? 2 : 1, cv::LINE_AA);
@@ -53,7 +45,7 @@ class Font::Face {
 
   /// The pen's way over one letter: what it adds between two others.
   int advance(char32_t character, int height) const {
-    const std::string letter = outlines_ ? utf8(character) : strokes(character);
+    const std::string letter = outlines_ ? as_utf8(character) : strokes(character);
     return width(std::string("|").append(letter).append("|"), height) - width("||", height);
   }
 

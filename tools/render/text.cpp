@@ -1,31 +1,21 @@
 #include "tools/render/text.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <utility>
+
+#include "scenes/schema/utf8.hpp"
 
 namespace ghtrack::render {
 
 namespace {
 
-constexpr char32_t kInvalid = 0x110000;
-
-/// Reads one character and moves on by at least one byte; kInvalid if it is not UTF-8.
+/// Reads one character and moves on; what is not UTF-8 counts byte by byte and has no glyph.
 char32_t next_character(std::string_view text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(at++);
-  if (first < 0x80) return first;
-  const int more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
-  if (first < 0xC2 || first > 0xF4) return kInvalid;
-  char32_t character = first & (0x3F >> more);
-  for (int i = 0; i < more; ++i) {
-    if (at >= text.size() || (byte(at) & 0xC0) != 0x80) return kInvalid;
-    character = (character << 6) | (byte(at++) & 0x3F);
-  }
-  constexpr std::array<char32_t, 4> kSmallest{0, 0x80, 0x800, 0x10000};
-  const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
-  return character < kSmallest[static_cast<std::size_t>(more)] || surrogate ? kInvalid : character;
+  constexpr char32_t kInvalid = 0x110000;
+  const auto character = schema::first_character(text.substr(at));
+  at += character ? character->size : 1;
+  return character ? character->code : kInvalid;
 }
 
 bool in(char32_t character, std::initializer_list<std::pair<char32_t, char32_t>> ranges) {

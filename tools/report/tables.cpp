@@ -30,14 +30,14 @@ Json sort_key(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(fmt::format("{:.6g}", *value)) : Json("");
 }
 
-std::string css_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kBest:
+std::string css_of(Significance significance) {
+  switch (significance) {
+    case Significance::kBest:
       return "best";
-    case Verdict::kTied:
+    case Significance::kTied:
       return "tied";
-    case Verdict::kNone:
-    case Verdict::kWorse:
+    case Significance::kNone:
+    case Significance::kWorse:
       break;
   }
   return "";
@@ -52,7 +52,7 @@ Json value_cell(const ComparisonRow* row) {
   const std::string half =
       row->ci95 ? fmt::format("±{:.1g}", 0.5 * (row->ci95->high - row->ci95->low)) : "";
   return {{"text", number(row->mean)},       {"half", half},
-          {"verdict", css_of(row->verdict)}, {"css", css_of(row->verdict)},
+          {"verdict", css_of(row->significance)}, {"css", css_of(row->verdict)},
           {"sort", sort_key(row->mean)},     {"predicted", number(row->predicted)}};
 }
 
@@ -136,8 +136,8 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
                     {"predicted", number(row.predicted)},
                     {"bound", number(row.bound)},
                     {"difference", difference},
-                    {"verdict", to_string(row.verdict)},
-                    {"css", css_of(row.verdict)},
+                    {"verdict", to_string(row.significance)},
+                    {"css", css_of(row.significance)},
                     {"runs", row.runs}});
   }
   return rows;

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "tools/film/series_plot.hpp"
-#include "tools/pipeline/series.hpp"
+#include "tools/run/series.hpp"
 #include "tools/render/plot_picture.hpp"
 
 namespace ghtrack::view {

@@ -1,14 +1,15 @@
 #include "tools/view/world_player.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "sensors/sensor.hpp"
-#include "tools/film/contender.hpp"
 #include "tools/film/scene_drawing.hpp"
-#include "tools/pipeline/simulation.hpp"
+#include "tools/run/run.hpp"
+#include "tools/run/schedule.hpp"
 
 namespace ghtrack::view {
 namespace {
@@ -43,16 +44,22 @@ WorldPlayer::WorldPlayer(const WorldScene& scene)
     : scene_(scene),
       sensed_(scene),
       world_(make_world(scene_)),
-      options_(film::video_options(scene_, world_, {})),
-      drawing_(film::drawing_of(scene_, world_, {}, [] {})),
+      options_(film::video_options(scene_, world_.objects(), {})),
       knobs_{{"g", 0.001, 1.99, 0.4, true},
              {"h", 0.0001, 2.0, 0.1, true},
              {"k", 0.0, 0.5, 0.0, true},
              {"initial speed [m/s]", 1.0, 100.0, 30.0, true},
              {"noise, times", 0.05, 5.0, 1.0}} {
-  recording_ = record(sensed_, render::frame_times(options_, scene_.duration));
+  frame_times_ = render::frame_times(options_, scene_.duration);
+  SimulatedTruth simulated([this] { return make_world(scene_); });
+  drawing_ = film::drawing_of(scene_, world_, simulated, {}, [] {});
+  const std::vector<double> scans = scan_instants(scene_);
+  std::vector<double> instants;
+  std::set_union(scans.begin(), scans.end(), frame_times_.begin(), frame_times_.end(),
+                 std::back_inserter(instants));
+  truth_ = repeatable_truth([this] { return make_world(scene_); }, instants, [] {});
   choose_tracker();
-  start_over();
+  filter();
 }
 
 double WorldPlayer::seconds_per_frame() const { return 1.0 / options_.fps; }
@@ -63,7 +70,7 @@ TrackerConfig WorldPlayer::wanted_tracker() const {
     FilterConfig filter = GhConfig{.design = gain_design::Manual<1>{value(kG), value(kH)}};
     if (value(kK) > 0.0)
       filter = GhkConfig{.design = gain_design::Manual<2>{value(kG), value(kH), value(kK)}};
-    config = film::with_filter(std::move(config), filter);
+    config.filters = {{std::string(TrackerConfig::kDefaultFilter), filter}};
   }
   if (is_turned_[kGuess])
     for (auto& [name, filter] : config.filters) set_guess(filter, value(kGuess));
@@ -73,12 +80,9 @@ TrackerConfig WorldPlayer::wanted_tracker() const {
 void WorldPlayer::turn(std::size_t knob, double value) {
   knobs_.at(knob).value = value;
   is_turned_.at(knob) = true;
-  if (knob == kNoise) {
-    sensed_ = with_noise(scene_, value);
-    recording_ = record(sensed_, render::frame_times(options_, scene_.duration));
-  }
+  if (knob == kNoise) sensed_ = with_noise(scene_, value);
   choose_tracker();
-  start_over();
+  filter();
 }
 
 void WorldPlayer::toggle(render::Layer layer) {
@@ -94,52 +98,36 @@ void WorldPlayer::toggle(render::Layer layer) {
 void WorldPlayer::choose_tracker() {
   const bool is_own = !is_turned_[kG] && !is_turned_[kH] && !is_turned_[kK];
   try {
-    const TrackerConfig wanted = wanted_tracker();
-    const film::Contender contender(sensed_, "", wanted);
-    tracker_ = wanted;
-    drawing_.title = scene_.name + ": " + (is_own ? "its own filters" : contender.drawing().gains);
+    tracker_ = {{"", SceneTracker(wanted_tracker(), traits_of(sensed_.sensors))}};
+    drawing_.title =
+        scene_.name + ": " + (is_own ? "its own filters" : film::panel_of(tracker_.front()).gains);
   } catch (const std::invalid_argument& error) {
     drawing_.title = scene_.name + ": " + error.what();
   }
 }
 
-/// Filters from the start to the present frame.
+/// Runs the sensors and the tracker over the whole truth.
+void WorldPlayer::filter() {
+  shown_.clear();
+  film::FrameMaker maker(sensed_, {},
+                         [this](const render::VideoFrame& frame) { shown_.push_back(frame); });
+  truth_->restart();
+  run(sensed_, *truth_, tracker_, {&maker}, frame_times_);
+  start_over();
+}
+
+/// Draws from the start to the present frame.
 void WorldPlayer::start_over() {
-  maker_ = std::make_unique<film::FrameMaker>(sensed_,
-                                              std::vector{film::Contender(sensed_, "", tracker_)});
   picture_ = std::make_unique<render::Picture>(options_, drawing_);
-  next_arrival_ = 0;
   next_frame_ = 0;
-  latest_scan_ = -1.0;
   seek(frame_);
 }
 
 void WorldPlayer::seek(std::size_t frame) {
   frame_ = std::min(frame, frames() - 1);
   if (next_frame_ > frame_) return start_over();
-  while (next_frame_ <= frame_) {
-    const TruthSnapshot& truth = recording_.frames[next_frame_];
-    deliver_until(truth.time);
-    const render::VideoFrame& shown = maker_->frame(truth);
-    if (next_frame_ == frame_)
-      picture_->draw(shown, image_);
-    else
-      picture_->remember(shown);
-    ++next_frame_;
-  }
-}
-
-void WorldPlayer::deliver_until(double time) {
-  const std::vector<Arrival>& arrivals = recording_.arrivals;
-  for (; next_arrival_ < arrivals.size() && arrivals[next_arrival_].time <= time; ++next_arrival_) {
-    const Arrival& arrival = arrivals[next_arrival_];
-    const bool is_late = arrival.observation.scan.time < latest_scan_;
-    if (is_late)
-      maker_->add_late_scan(arrival.observation);
-    else
-      maker_->add_scan({arrival.truth, arrival.observation, {}});
-    latest_scan_ = std::max(latest_scan_, arrival.observation.scan.time);
-  }
+  for (; next_frame_ < frame_; ++next_frame_) picture_->remember(shown_[next_frame_]);
+  picture_->draw(shown_[next_frame_++], image_);
 }
 
 }  // namespace ghtrack::view

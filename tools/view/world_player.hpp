@@ -9,14 +9,15 @@
 #include "scenes/schema/scene.hpp"
 #include "sim/world.hpp"
 #include "tools/film/frame_maker.hpp"
+#include "tools/run/contender.hpp"
+#include "tools/run/truth_source.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/view/knob.hpp"
-#include "tools/view/recording.hpp"
 
 namespace ghtrack::view {
 
 /// Plays a world scene back and forth, with gains, initial guess and noise to turn. The truth and
-/// the sensors' dice are recorded once; a turn of a knob filters all of it anew.
+/// is recorded once; a turn of a knob looks at it and filters anew.
 class WorldPlayer {
  public:
   explicit WorldPlayer(const WorldScene& scene);
@@ -28,7 +29,7 @@ class WorldPlayer {
 
   void toggle(render::Layer layer);
 
-  std::size_t frames() const { return recording_.frames.size(); }
+  std::size_t frames() const { return shown_.size(); }
   std::size_t frame() const { return frame_; }
   double seconds_per_frame() const;
 
@@ -43,8 +44,8 @@ class WorldPlayer {
   double value(Setting setting) const { return knobs_[setting].value; }
   TrackerConfig wanted_tracker() const;
   void choose_tracker();
+  void filter();
   void start_over();
-  void deliver_until(double time);
 
   WorldScene scene_;
   WorldScene sensed_;  // the same with the noise that was chosen
@@ -53,13 +54,12 @@ class WorldPlayer {
   render::SceneDrawing drawing_;
   std::vector<Knob> knobs_;
   std::array<bool, kSettings> is_turned_{};
-  TrackerConfig tracker_;
-  Recording recording_;
-  std::unique_ptr<film::FrameMaker> maker_;
+  std::vector<double> frame_times_;
+  std::unique_ptr<TruthSource> truth_;
+  std::vector<Contender> tracker_;         // the one that is shown
+  std::vector<render::VideoFrame> shown_;  // of all frame times
   std::unique_ptr<render::Picture> picture_;
-  std::size_t next_arrival_ = 0;
   std::size_t next_frame_ = 0;  // that the picture has not taken note of yet
-  double latest_scan_ = -1.0;   // [s] time of the latest scan that has arrived
   std::size_t frame_ = 0;
   cv::Mat image_;
 };

@@ -10,6 +10,7 @@
 #include "tests/tools/experiment/sample_campaign.hpp"
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/run/contender.hpp"
 
 namespace ghtrack {
 namespace {

@@ -46,8 +46,8 @@ TEST(Comparison, NamesTheWinnerThatTheoryNames) {
   const Comparison comparison = compared(kThree);
   const ComparisonRow& tiny = row_of(comparison, "tiny", "ball", Metric::kRmsePosition);
   const ComparisonRow& large = row_of(comparison, "large", "ball", Metric::kRmsePosition);
-  EXPECT_EQ(tiny.verdict, Verdict::kBest);
-  EXPECT_EQ(large.verdict, Verdict::kWorse);
+  EXPECT_EQ(tiny.significance, Significance::kBest);
+  EXPECT_EQ(large.significance, Significance::kWorse);
   EXPECT_GT(large.difference_ci95->low, 0.0);
   EXPECT_EQ(tiny.difference, 0.0);
   EXPECT_EQ(large.gains, "gh g=0.8 h=0.5");
@@ -74,8 +74,8 @@ TEST(Comparison, PredictsVelocityAndInnovation) {
 TEST(Comparison, CallsEqualFiltersTied) {
   const Comparison comparison = compared(
       "{runs: 20, filters: {large: {gh: {g: 0.8, h: 0.5}}, twin: {gh: {g: 0.8, h: 0.5}}}}");
-  EXPECT_EQ(row_of(comparison, "large", "ball", Metric::kRmsePosition).verdict, Verdict::kTied);
-  EXPECT_EQ(row_of(comparison, "twin", "ball", Metric::kRmsePosition).verdict, Verdict::kTied);
+  EXPECT_EQ(row_of(comparison, "large", "ball", Metric::kRmsePosition).significance, Significance::kTied);
+  EXPECT_EQ(row_of(comparison, "twin", "ball", Metric::kRmsePosition).significance, Significance::kTied);
 }
 
 // Property: no winner without runs to judge by, or without a rival.
@@ -83,10 +83,10 @@ TEST(Comparison, NamesNoWinnerWithoutEvidence) {
   const Comparison one_run =
       compared("{runs: 1, filters: {a: {gh: {g: 0.8, h: 0.5}}, b: {gh: {g: 0.1, h: 0.01}}}}");
   const ComparisonRow& row = row_of(one_run, "a", "ball", Metric::kRmsePosition);
-  EXPECT_EQ(row.verdict, Verdict::kNone);
+  EXPECT_EQ(row.significance, Significance::kNone);
   EXPECT_FALSE(row.ci95);
   const Comparison alone = compared("{runs: 5}");
-  EXPECT_EQ(row_of(alone, "scene", "ball", Metric::kRmsePosition).verdict, Verdict::kNone);
+  EXPECT_EQ(row_of(alone, "scene", "ball", Metric::kRmsePosition).significance, Significance::kNone);
 }
 
 // Property: the same bytes for any number of threads.

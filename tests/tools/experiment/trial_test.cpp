@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tools/experiment/sample_campaign.hpp"
-#include "tools/pipeline/simulation.hpp"
+#include "tools/run/run.hpp"
 
 namespace ghtrack {
 namespace {
@@ -39,14 +39,9 @@ TEST(Trial, ScoresAsARunDoes) {
   const Trial trial(scene);
   const std::vector<double> scores = trial.scores(3);
 
-  World world = make_world(scene);
-  RunMetrics metrics(world.objects(), trial.scoring());
-  Listener listener;
-  listener.on_observation = [&](const TruthSnapshot& truth, const Observation& observation) {
-    metrics.add_observation(truth, observation);
-  };
-  listener.on_scan = [&](const StepRecord& record) { metrics.add_tracks(record); };
-  run(scene_of_run(scene, 3), world, listener);
+  SimulatedTruth truth([&] { return make_world(scene); });
+  RunMetrics metrics(truth.objects(), trial.scoring());
+  run(scene_of_run(scene, 3), truth, std::vector{own_tracker(scene)}, {&metrics});
   const RunReport report = metrics.report();
 
   const TrialLayout layout = trial.layout();
@@ -64,10 +59,9 @@ TEST(Trial, ScoresAsARunDoes) {
 // Property: truth that was recorded once gives the bits of truth that is simulated for each run.
 TEST(Trial, ReplaysRecordedTruth) {
   const WorldScene scene = busy_scene("{runs: 5}");
-  const Trial fresh(scene);
-  Trial recorded(scene);
-  recorded.record_truth();
-  EXPECT_THAT(recorded.scores(2), Pointwise(NanSensitiveDoubleEq(), fresh.scores(2)));
+  const Trial trial(scene);
+  SimulatedTruth fresh([&] { return world_of_run(scene, 2); });
+  EXPECT_THAT(trial.scores(2), Pointwise(NanSensitiveDoubleEq(), trial.scores(2, fresh, {})));
 }
 
 /// The numbers of one contender.

@@ -129,7 +129,7 @@ StepRecord record_at(double time) {
 
 void add(RunWriter& writer, const StepRecord& record) {
   writer.add_observation(record.truth, record.observation);
-  writer.add_tracks(record.tracks);
+  writer.add_tracks(record);
 }
 
 // Derived: the promised columns, written out by hand.

@@ -50,7 +50,7 @@ void add_rows(Comparison& comparison, std::size_t cell, const std::string& regim
            .runs = 100,
            .difference = is_best ? 0.0 : 0.1,
            .difference_ci95 = is_best ? std::nullopt : std::optional(Interval{0.08, 0.12}),
-           .verdict = is_best ? Verdict::kBest : Verdict::kWorse});
+           .significance = is_best ? Significance::kBest : Significance::kWorse});
     }
   }
 }

@@ -1,0 +1,145 @@
+#include "tools/experiment/labelled_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+namespace ghtrack {
+namespace {
+
+constexpr int kFirstDetections =
+    3;  // after which errors count: some filters have no acceleration yet
+
+/// Walks through the scans of an object and tells `visit` after each one that counts.
+/// @param advance  predicts and updates
+template <class Advance, class Visit>
+void walk(const LabelledObject& object, const Advance& advance, const Visit& visit) {
+  int detections = 0;
+  double before = object.scans.empty() ? 0.0 : object.scans.front().time;
+  for (const ObjectScan& scan : object.scans) {
+    advance(scan, scan.time - before);
+    before = scan.time;
+    if (scan.detection) ++detections;
+    if (detections >= kFirstDetections) visit(scan);
+  }
+}
+
+/// Takes down what each scan says of some objects.
+class ObjectRecorder final : public RunObserver {
+ public:
+  ObjectRecorder(std::size_t objects, const std::vector<ObjectId>& wanted) : place_(objects) {
+    for (const ObjectId id : wanted) {
+      place_[static_cast<std::size_t>(id)] = objects_.size();
+      objects_.push_back({id, {}});
+    }
+  }
+
+  void add_observation(const TruthSnapshot& truth, const Observation& observation) override {
+    std::vector<std::optional<Detection>> made(place_.size());
+    for (std::size_t i = 0; i < observation.origins.size(); ++i) {
+      const ObjectId origin = observation.origins[i];
+      if (origin == kClutterOrigin || !place_[static_cast<std::size_t>(origin)]) continue;
+      made[static_cast<std::size_t>(origin)] = observation.scan.detections[i];
+    }
+    for (const TruthState& state : truth.objects) {
+      const auto id = static_cast<std::size_t>(state.id);
+      if (!place_[id]) continue;
+      std::vector<ObjectScan>& scans = objects_[*place_[id]].scans;
+      if (scans.empty() && !made[id]) continue;
+      scans.push_back({truth.time, state, made[id]});
+    }
+  }
+
+  std::vector<LabelledObject> objects() && {
+    std::erase_if(objects_, [](const LabelledObject& object) { return object.scans.empty(); });
+    return std::move(objects_);
+  }
+
+ private:
+  std::vector<std::optional<std::size_t>> place_;  // of each object in `objects_`
+  std::vector<LabelledObject> objects_;
+};
+
+}  // namespace
+
+std::vector<ObjectId> some_objects(const Trial& trial, std::size_t scans) {
+  double each = 1.0;  // scans of one object
+  for (const SensorConfig& sensor : trial.scene().sensors) {
+    each += trial.scene().duration * sensor.rate;
+  }
+  const double share =
+      static_cast<double>(scans) / (each * static_cast<double>(trial.regimes().size()));
+  const auto most = std::max<std::size_t>(1, static_cast<std::size_t>(share));
+  std::map<std::string_view, std::size_t> taken;  // of each regime
+  std::vector<ObjectId> objects;
+  for (const ObjectInfo& object : trial.objects()) {
+    if (taken[object.regime]++ < most) objects.push_back(object.id);
+  }
+  return objects;
+}
+
+std::vector<LabelledObject> labelled_objects(const Trial& trial, int run, const RunTruth& truth,
+                                             const std::vector<ObjectId>& wanted) {
+  ObjectRecorder recorder(trial.objects().size(), wanted);
+  trial.listen(run, *truth.source(), {}, {&recorder});
+  return std::move(recorder).objects();
+}
+
+SquaredErrors& SquaredErrors::operator+=(const SquaredErrors& other) {
+  position += other.position;
+  velocity += other.velocity;
+  return *this;
+}
+
+SquaredErrors measured_errors(Filter filter, const LabelledObject& object) {
+  SquaredErrors sum;
+  const auto advance = [&](const ObjectScan& scan, double dt) {
+    if (dt > 0.0) predict(filter, dt);
+    if (!scan.detection) {
+      coast(filter);
+    } else if (is_started(filter)) {
+      update(filter, scan.detection->position, scan.detection->covariance);
+    } else {
+      start(filter, scan.detection->position, scan.detection->covariance);
+    }
+  };
+  walk(object, advance, [&](const ObjectScan& scan) {
+    const Kinematics<2>& state = estimate(filter);
+    sum.position.add((state.position - scan.truth.position).squaredNorm());
+    sum.velocity.add((state.velocity - scan.truth.velocity).squaredNorm());
+  });
+  return sum;
+}
+
+SquaredErrors expected_errors(GainFilter<2> filter, const LabelledObject& object) {
+  SquaredErrors sum;
+  const auto advance = [&](const ObjectScan& scan, double dt) {
+    if (dt > 0.0) filter.predict(dt);
+    if (!scan.detection) {
+      filter.coast();
+    } else if (filter.is_started()) {
+      filter.update(scan.truth.position, scan.detection->covariance);
+    } else {
+      filter.start(scan.truth.position, scan.detection->covariance);
+    }
+  };
+  walk(object, advance, [&](const ObjectScan& scan) {
+    sum.position.add((filter.estimate().position - scan.truth.position).squaredNorm() +
+                     filter.noise_sigma().squaredNorm());
+    sum.velocity.add((filter.estimate().velocity - scan.truth.velocity).squaredNorm() +
+                     filter.noise_velocity_sigma().squaredNorm());
+  });
+  return sum;
+}
+
+GainFilter<2> plain_filter(const Gains& gains, double sigma, double period) {
+  GainSchedule schedule;
+  schedule.steady = gains;
+  schedule.interval = period;
+  ErrorModel errors;
+  errors.sigma = sigma;
+  return {schedule, errors};
+}
+
+}  // namespace ghtrack

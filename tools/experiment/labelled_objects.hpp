@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sensors/detection.hpp"
+#include "sim/truth.hpp"
+#include "tools/experiment/trial.hpp"
+#include "tools/metrics/mean.hpp"
+#include "tracker/filters/filter.hpp"
+
+// Filters that are told which detection is whose, one object at a time: what is left of a tracking
+// problem when association is taken away. Gains are searched for and bounds are found here.
+
+namespace ghtrack {
+
+/// One scan as far as it concerns one object.
+struct ObjectScan {
+  double time = 0.0;  // [s]
+  TruthState truth;
+  std::optional<Detection> detection;  // made by the object
+};
+
+/// An object from its first detection to its end.
+struct LabelledObject {
+  ObjectId id = 0;
+  std::vector<ObjectScan> scans;
+};
+
+/// The first objects of each regime, at least one: as many as make about so many scans of an object
+/// in a run. What is searched for or averaged over again and again need not see the whole of a large
+/// swarm.
+std::vector<ObjectId> some_objects(const Trial& trial, std::size_t scans);
+
+/// Those of these objects that are detected at all in a run, by id.
+std::vector<LabelledObject> labelled_objects(const Trial& trial, int run, const RunTruth& truth,
+                                        const std::vector<ObjectId>& wanted);
+
+/// Mean squared errors over the scans from the third detection on.
+struct SquaredErrors {
+  Mean position;  // [m²]
+  Mean velocity;  // [m²/s²]
+
+  SquaredErrors& operator+=(const SquaredErrors& other);
+};
+
+/// The errors that a filter makes with the detections as they are.
+/// @param filter  has not started yet
+SquaredErrors measured_errors(Filter filter, const LabelledObject& object);
+
+/// The errors to be expected of a filter over all measurement noise, given which scans detected the
+/// object: the squared lag of the filter on noiseless detections, and the variance of the noise
+/// that it carries along, both exact for errors of the covariance that detections tell.
+/// @param filter  has not started yet
+SquaredErrors expected_errors(GainFilter<2> filter, const LabelledObject& object);
+
+/// A filter with given gains, and least squares at the start.
+GainFilter<2> plain_filter(const Gains& gains, double sigma, double period);
+
+}  // namespace ghtrack

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "tools/experiment/campaign.hpp"
+#include "tools/run/truth_source.hpp"
+
+namespace ghtrack {
+
+/// The truth of one run: whoever wants to go through it gets a source of his own.
+class RunTruth {
+ public:
+  explicit RunTruth(std::shared_ptr<const TruthRecording> recording)
+      : recording_(std::move(recording)) {}
+  /// Truth that is simulated each time.
+  explicit RunTruth(std::function<World()> make_world) : make_world_(std::move(make_world)) {}
+
+  /// The truth at its start.
+  std::unique_ptr<TruthSource> source() const;
+
+ private:
+  std::shared_ptr<const TruthRecording> recording_;
+  std::function<World()> make_world_;
+};
+
+/// The truth of the runs of a scene, and of all scenes that differ from it in sensors, filters or
+/// noise only. Constant operations are safe to use from several threads.
+class SharedTruth {
+ public:
+  /// @param on_step  called at each instant that is recorded; may throw to give up
+  explicit SharedTruth(
+      const WorldScene& scene, std::function<void()> on_step = [] {});
+
+  /// Makes room for the scans of another scene with the same truth.
+  void add(const WorldScene& scene);
+
+  /// The truth of a run: recorded if all runs have it in common, or if it is to be gone through
+  /// more than once; and if it fits into memory.
+  RunTruth of_run(int run, bool is_reused) const;
+
+ private:
+  WorldScene scene_;  // with nothing but what the truth depends on
+  std::function<void()> on_step_;
+  std::vector<double> instants_;  // of the scans of all scenes [s]
+  std::size_t objects_;
+  mutable std::once_flag recorded_;
+  mutable std::shared_ptr<const TruthRecording> common_;  // of all runs
+};
+
+/// The cells of a campaign that share a truth.
+struct CellGroup {
+  std::unique_ptr<SharedTruth> truth;
+  std::vector<std::size_t> cells;
+};
+std::vector<CellGroup> groups_by_truth(const Campaign& campaign,
+                                       const std::function<void()>& on_step);
+
+}  // namespace ghtrack

@@ -1,0 +1,52 @@
+#include "tools/film/film.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "tools/film/scene_drawing.hpp"
+#include "tools/run/schedule.hpp"
+
+namespace ghtrack::film {
+namespace {
+
+/// What several contenders side by side are called; one alone needs no name.
+std::vector<render::PanelDrawing> panels_of(std::span<const Contender> contenders,
+                                            const Shown& shown) {
+  std::vector<render::PanelDrawing> panels;
+  if (shown.count == 1) return panels;
+  for (const Contender& contender : contenders.subspan(shown.first, shown.count)) {
+    panels.push_back(panel_of(contender));
+  }
+  return panels;
+}
+
+std::vector<double> merged(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
+}
+
+/// Recorded unless it is gone through only once.
+std::unique_ptr<TruthSource> truth_of(const WorldScene& scene, std::function<World()> make_world,
+                                      const std::vector<double>& frame_times,
+                                      const std::function<void()>& on_step) {
+  if (!needs_extent(scene)) return std::make_unique<SimulatedTruth>(std::move(make_world));
+  const std::vector<double> shown = merged(frame_times, extent_instants(scene.duration));
+  return repeatable_truth(std::move(make_world), merged(scan_instants(scene), shown), on_step);
+}
+
+}  // namespace
+
+Film::Film(const WorldScene& scene, std::function<World()> make_world,
+           const render::VideoOptions& options, std::span<const Contender> contenders,
+           const Shown& shown, const std::function<void()>& on_step)
+    : times_(render::frame_times(options, scene.duration)),
+      world_(make_world()),
+      truth_(truth_of(scene, std::move(make_world), times_, on_step)),
+      writer_(options, drawing_of(scene, world_, *truth_, panels_of(contenders, shown), on_step)),
+      frames_(scene, shown, [this](const render::VideoFrame& frame) { writer_.add_frame(frame); }) {
+  truth_->restart();
+}
+
+}  // namespace ghtrack::film

@@ -1,0 +1,206 @@
+#include "tools/run/series.hpp"
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "sim/random.hpp"
+#include "tracker/filters/axis_filter.hpp"
+
+namespace ghtrack {
+namespace {
+
+using Vector1 = Eigen::Matrix<double, 1, 1>;
+
+std::vector<SeriesMeasurement> measure(const GivenSeries& series, double, std::uint64_t) {
+  std::vector<SeriesMeasurement> measurements;
+  for (std::size_t i = 0; i < series.measurements.size(); ++i) {
+    measurements.push_back({series.measurements[i], std::nullopt});
+    if (!series.truth.empty()) measurements.back().truth = series.truth[i];
+  }
+  return measurements;
+}
+
+/// Draws a number 0, 1, … with these weights.
+int drawn(const std::vector<double>& weights, double uniform) {
+  double sum = 0.0;
+  for (const double weight : weights) sum += weight;
+  double left = uniform * sum;
+  int i = 0;
+  while (i + 1 < static_cast<int>(weights.size()) && left >= weights[static_cast<std::size_t>(i)]) {
+    left -= weights[static_cast<std::size_t>(i++)];
+  }
+  return i;
+}
+
+std::vector<SeriesMeasurement> measure(const WalkSeries& walk, double, std::uint64_t seed) {
+  const auto places = static_cast<int>(walk.map.size());
+  const auto there = [&](int place) { return walk.map[static_cast<std::size_t>(place)]; };
+  std::vector<SeriesMeasurement> measurements;
+  int place = walk.start;
+  for (int i = 0; i < walk.points; ++i) {
+    Stream luck(seed, Purpose::kMeasurementNoise, key_of("walk"), static_cast<std::uint64_t>(i));
+    const double stride = luck.uniform();
+    const double reading = luck.uniform();
+    const double other = luck.uniform();
+    const int slip = drawn(walk.kernel, stride) - static_cast<int>(walk.kernel.size() / 2);
+    place = (((place + walk.movement + slip) % places) + places) % places;
+    double z = there(place);
+    if (reading >= walk.accuracy) {
+      std::vector<double> wrong;
+      for (const double thing : walk.map) {
+        if (thing != there(place)) wrong.push_back(thing);
+      }
+      if (!wrong.empty()) z = wrong[static_cast<std::size_t>(other * static_cast<double>(wrong.size()))];
+    }
+    measurements.push_back({z, static_cast<double>(place)});
+  }
+  return measurements;
+}
+
+Gains gains_of(const SeriesGh& model) { return Gains::of_gh(model.g, model.h); }
+Gains gains_of(const SeriesGhk& model) { return Gains::of_ghk(model.g, model.h, model.k); }
+double initial_acceleration(const SeriesGh&) { return 0.0; }
+double initial_acceleration(const SeriesGhk& model) { return model.ddx0; }
+
+/// A filter ready to go, and what to call it.
+struct Prepared {
+  AxisFilter filter;
+  std::string gains;
+  int order = 1;
+};
+
+Prepared prepared(const SeriesFilter& config, double dt) {
+  Kinematics<1> guess;
+  guess.position[0] = config.x0;
+  guess.velocity[0] = config.dx0;
+  return std::visit(
+      [&](const auto& model) -> Prepared {
+        if constexpr (requires { gains_of(model); }) {
+          guess.acceleration[0] = initial_acceleration(model);
+          const Gains gains = gains_of(model);
+          return {GainFilter<1>(gains, dt, guess), to_text(gains), gains.order};
+        } else {
+          return {make_axis_filter(model, config.sigma, dt, guess), std::string(model.kind),
+                  order_of(model)};
+        }
+      },
+      config.model);
+}
+
+const Kinematics<1>& estimate_of(const AxisFilter& filter) {
+  return std::visit([](const auto& f) -> const Kinematics<1>& { return f.estimate(); }, filter);
+}
+
+discrete_bayes::Belief belief_of(const AxisFilter& filter) {
+  const auto* histogram = std::get_if<DiscreteBayesFilter>(&filter);
+  return histogram != nullptr ? histogram->belief() : discrete_bayes::Belief();
+}
+
+class MeanSquare {
+ public:
+  void add(double error) {
+    sum_ += error * error;
+    ++count_;
+  }
+  std::optional<double> root() const {
+    if (count_ == 0) return std::nullopt;
+    return std::sqrt(sum_ / count_);
+  }
+
+ private:
+  double sum_ = 0.0;
+  int count_ = 0;
+};
+
+SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
+                   const std::vector<SeriesMeasurement>& measurements) {
+  const double dt = config.dt.value_or(scene.dt);
+  auto [filter, gains, order] = prepared(config, dt);
+  SeriesTrack track{.filter = config.name,
+                    .gains = gains,
+                    .order = order,
+                    .rows = {},
+                    .beliefs = {},
+                    .rmse = {},
+                    .rmse_without_guess = {}};
+  const bool guess_is_first = scene.initial_guess == GuessAt::kFirstMeasurement;
+  MeanSquare all;
+  MeanSquare filtered;
+  double innovations = 0.0;
+  int used = 0;
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const SeriesMeasurement& now = measurements[i];
+    const bool is_guess = i == 0 && guess_is_first;
+    if (!is_guess) std::visit([dt](auto& f) { f.predict(dt); }, filter);
+    const Kinematics<1> prior = estimate_of(filter);
+    SeriesBelief belief{belief_of(filter), {}};
+    std::optional<Vector1> residual;
+    if (!is_guess) {
+      std::visit(
+          [&](auto& f) {
+            if (f.update(Vector1(now.z))) residual = f.residual();
+          },
+          filter);
+    }
+    const Kinematics<1>& posterior = estimate_of(filter);
+    belief.posterior = belief_of(filter);
+    if (!belief.posterior.empty()) track.beliefs.push_back(std::move(belief));
+    SeriesRow row{.k = static_cast<int>(i) + 1,
+                  .t = scene.dt * static_cast<double>(i + (guess_is_first ? 0 : 1)),
+                  .z = now.z,
+                  .truth = now.truth,
+                  .x_pred = prior.position[0],
+                  .dx_pred = prior.velocity[0],
+                  .ddx_pred = prior.acceleration[0],
+                  .residual = std::nullopt,
+                  .x = posterior.position[0],
+                  .dx = posterior.velocity[0],
+                  .ddx = posterior.acceleration[0]};
+    if (residual) {
+      row.residual = (*residual)[0];
+      innovations += std::abs(*row.residual);
+      ++used;
+    }
+    if (now.truth) {
+      all.add(row.x - *now.truth);
+      if (!is_guess) filtered.add(row.x - *now.truth);
+    }
+    track.rows.push_back(row);
+  }
+  track.rmse = all.root();
+  track.rmse_without_guess = filtered.root();
+  track.mai = used == 0 ? 0.0 : innovations / used;
+  return track;
+}
+
+}  // namespace
+
+std::vector<SeriesMeasurement> measure(const GeneratedSeries& series, double dt,
+                                       std::uint64_t seed) {
+  std::vector<SeriesMeasurement> measurements;
+  for (int i = 0; i < series.points; ++i) {
+    const double truth = series.truth(i, dt);
+    Stream noise(seed, Purpose::kMeasurementNoise, key_of("series"), static_cast<std::uint64_t>(i));
+    measurements.push_back({truth + series.noise * noise.normal(), truth});
+  }
+  return measurements;
+}
+
+SeriesResult run(const SeriesScene& scene) {
+  const std::vector<SeriesMeasurement> measurements = std::visit(
+      [&](const auto& series) { return measure(series, scene.dt, scene.seed); }, scene.data);
+  SeriesResult result;
+  MeanSquare errors;
+  const bool are_readings = std::holds_alternative<WalkSeries>(scene.data);  // no places
+  for (const SeriesMeasurement& measurement : measurements) {
+    if (measurement.truth && !are_readings) errors.add(measurement.z - *measurement.truth);
+  }
+  result.measurement_rmse = errors.root();
+  for (const SeriesFilter& filter : scene.filters) {
+    result.tracks.push_back(follow(filter, scene, measurements));
+  }
+  return result;
+}
+
+}  // namespace ghtrack
