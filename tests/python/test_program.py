@@ -1,0 +1,182 @@
+"""Scenes, runs and tracks in Python are those of the program."""
+
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+
+import ghtrack
+from ghtrack import _program
+
+SCENES = pathlib.Path(__file__).parents[2] / "scenes"
+
+SMALL = {
+    "name": "one throw",
+    "duration": 2,
+    "world": {"ground": {"height": 0}},
+    "targets": [{"name": "fly ball", "ball": {"type": "baseball", "position": [0, 1], "velocity": [20, 15]}}],
+    "sensors": [{"name": "camera", "rate": 30, "noise": 0.5, "detection_probability": 0.9}],
+    "tracker": {"filters": {"ball": {"ghk": {"design": "tracking-index", "process_noise": 10}}}},
+}
+
+
+def program(*arguments):
+    return subprocess.run([_program.executable(), *map(str, arguments)], check=True, capture_output=True, text=True)
+
+
+# Property: a run has the bytes of the program's.
+def test_a_run_is_the_programs(tmp_path):
+    scene = SCENES / "throwing.yaml"
+    program("run", scene, "--no-video", "--seed", 5, "--duration", 2, "-o", tmp_path / "theirs")
+    run = ghtrack.run(scene, seed=5, duration=2, folder=tmp_path / "ours")
+    for name in ("truth.csv", "detections.csv", "origins.csv", "tracks.csv", "metrics.json"):
+        assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes()
+    assert run.truth.x.dtype == float and len(run.truth) > 100
+    assert set(run.tracks.status) <= {"tentative", "confirmed", "coasting"}
+    again = ghtrack.Table.from_csv(run.tracks.to_csv())
+    for name in run.tracks.columns:
+        assert_array_equal(again[name], run.tracks[name])
+    assert run.metrics["total"]["gospa"] is not None
+    assert "RMSE" in run._repr_html_()
+
+
+# Property: path, text and dict say the same.
+def test_a_scene_is_a_path_a_text_or_a_dict(tmp_path):
+    import json
+
+    file = tmp_path / "scene.yaml"
+    file.write_text(json.dumps(SMALL))
+    runs = [ghtrack.run(source) for source in (file, str(file), json.dumps(SMALL, indent=1), SMALL)]
+    for run in runs[1:]:
+        assert_array_equal(run.tracks.x, runs[0].tracks.x)
+    changed = ghtrack.run(SMALL, filters={"ball": {"gh": {"g": 0.4, "h": 0.1}}}, set={"sensors[0].noise": 0.1})
+    assert set(changed.tracks.filter) == {"gh"}
+    assert changed.metrics["total"]["measurement_rmse"] < runs[0].metrics["total"]["measurement_rmse"]
+
+
+# Property: what is wrong raises an exception with the program's located words.
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda: ghtrack.load_scene({**SMALL, "duratoin": 3}), "did you mean 'duration'"),
+        (lambda: ghtrack.run(SMALL, set={"sensors[0].noise": -1}), "noise"),
+        (lambda: ghtrack.run(SMALL, seed=-1), "seed"),
+        (lambda: ghtrack.run("no such file.yaml"), "no such file.yaml"),
+        (lambda: ghtrack.gains("benedict-bordner"), "--g"),
+        (lambda: ghtrack.gains("benedict"), "benedict-bordner"),
+        (lambda: ghtrack.track([[1.0, 2.0]]), "t, x, y"),
+        (lambda: ghtrack.track([[0.0, 1.0, 2.0]], config={"nose": 1}), "noise"),
+        (lambda: ghtrack.Tracker({"nose": 1}, period=1), "noise"),
+        (lambda: ghtrack.Tracker(), "period"),
+    ],
+)
+def test_what_is_wrong_raises_with_the_words_of_the_program(call, words):
+    with pytest.raises(ghtrack.InputError, match=words):
+        call()
+    assert issubclass(ghtrack.InputError, ValueError)
+
+
+def test_surroundings_that_fail_raise_another_exception(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    with pytest.raises(ghtrack.EnvironmentFailure):
+        ghtrack.run(SMALL, folder=blocked / "run")
+
+
+def crossing(seed=1):
+    """Rows t, x, y of two objects with unit noise."""
+    random = np.random.default_rng(seed)
+    rows = []
+    for k in range(40):
+        for x, y in ((3.0 * k, 0.0), (120.0 - 3.0 * k, 30.0)):
+            rows.append((0.5 * k, x + random.normal(), y + random.normal()))
+    return np.array(rows)
+
+
+CONFIG = {"noise": 1.0, "period": 0.5, "tracker": {"filters": {"default": {"kalman-cv": {}}}}}
+
+
+# Property: array, dict and table are one; live tracking has the bits of the file's.
+def test_tracks_are_the_same_however_detections_come(tmp_path):
+    rows = crossing()
+    columns = dict(zip("txy", rows.T))
+    tracks = ghtrack.track(rows, config=CONFIG)
+    assert_array_equal(ghtrack.track(columns, config=CONFIG).x, tracks.x)
+    file = tmp_path / "detections.csv"
+    file.write_text(ghtrack.Table(columns).to_csv())
+    assert_array_equal(ghtrack.track(file, config=CONFIG).x, tracks.x)
+
+    tracker = ghtrack.Tracker(CONFIG)
+    for t in np.unique(rows[:, 0]):
+        now = tracker.step(t, rows[rows[:, 0] == t, 1:])
+        theirs = tracks[tracks.t == t]
+        for name in ("track_id", "x", "y", "vx", "vy", "sigma_x", "rx"):
+            assert_array_equal(now[name], theirs[name])
+        assert list(now.status) == list(theirs.status)
+    with pytest.raises(ghtrack.InputError):
+        tracker.step(0.0, [])
+
+
+def test_scores_of_tables():
+    rows = crossing()
+    truth = ghtrack.Table(
+        {
+            "t": rows[:, 0],
+            "truth_id": np.tile([1, 2], len(rows) // 2),
+            "x": np.ravel([[3.0 * k, 120.0 - 3.0 * k] for k in range(40)]),
+            "y": np.tile([0.0, 30.0], len(rows) // 2),
+        }
+    )
+    perfect = ghtrack.Table({**{name: truth[name] for name in ("t", "x", "y")}, "track_id": truth.truth_id})
+    result = ghtrack.score(truth, perfect, gospa_c=5)
+    assert result["gospa"] == 0.0 and result["mota"] == 1.0
+    assert ghtrack.score(truth, ghtrack.track(rows, config=CONFIG), gospa_c=5)["gospa"] > 0.0
+
+
+def test_gains_compare_and_tune():
+    assert ghtrack.gains("benedict-bordner", g=0.4)["h"] == pytest.approx(0.1)
+    filters = {"slow": {"gh": {"g": 0.1, "h": 0.01}}, "quick": {"gh": {"g": 0.8, "h": 0.3}}}
+    comparison = ghtrack.compare(SMALL, filters=filters, runs=2, jobs=1)
+    assert set(comparison.table.filter) >= {"slow", "quick"}
+    assert comparison.report.stat().st_size > 1000
+    assert comparison._repr_html_().startswith("<iframe")
+    assert ghtrack.tune(SMALL, runs=1, filter="gh", jobs=1)
+
+
+def test_pictures_are_shown_by_jupyter(tmp_path):
+    picture = ghtrack.render(ghtrack.run(SMALL), size="320x180", from_=1, to=1)
+    assert picture._repr_png_().startswith(b"\x89PNG") and picture._repr_html_() is None
+    assert tmp_path and picture.path.exists()
+
+
+# Property: importing costs next to nothing and brings no heavy library; measured in modules, not time.
+def test_importing_loads_neither_numpy_nor_the_program():
+    code = "import ghtrack, sys; print([m for m in sys.modules if m.split('.')[0] in ('numpy', 'subprocess')])"
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout == "[]\n"
+    maps = "import ghtrack.live; print(open('/proc/self/maps').read())"
+    text = subprocess.run([sys.executable, "-c", maps], check=True, capture_output=True, text=True).stdout
+    assert "opencv" not in text and "box2d" not in text
+
+
+# Property: threads and forks work side by side.
+def test_threads_and_forks():
+    import concurrent.futures
+    import multiprocessing
+
+    rows = crossing()
+    alone = ghtrack.track(rows, config=CONFIG).x
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        for tracks in pool.map(lambda _: ghtrack.track(rows, config=CONFIG), range(4)):
+            assert_array_equal(tracks.x, alone)
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        for x in pool.map(live_positions, [0, 1]):
+            assert_array_equal(x, live_positions(0))
+
+
+def live_positions(_):
+    tracker = ghtrack.Tracker(CONFIG)
+    rows = crossing()
+    return np.concatenate([tracker.step(t, rows[rows[:, 0] == t, 1:]).x for t in np.unique(rows[:, 0])])

@@ -1,0 +1,319 @@
+"""Scenes, runs, tracking, scores and comparisons: what the program does, as Python values."""
+
+import contextlib
+import functools
+import html
+import json
+import os
+import pathlib
+import tempfile
+
+import numpy as np
+
+from ghtrack._program import InputError, call, option_list
+from ghtrack.table import Table
+
+__all__ = [
+    "Comparison",
+    "Picture",
+    "Run",
+    "Scene",
+    "compare",
+    "gains",
+    "load_scene",
+    "render",
+    "run",
+    "score",
+    "track",
+    "tune",
+]
+
+
+class Scene:
+    """The text of a scene file, which has been checked."""
+
+    def __init__(self, text, name="scene", folder=None):
+        self.text, self.name = text, name
+        # A scene may name files beside it; one that was read from a file stays in its place.
+        self._file = pathlib.Path(folder) / name if folder else None
+        with self._as_file() as path:
+            call("check", path)
+
+    def _as_file(self):
+        return _kept(self._file) if self._file else _written(self.text, f"{self.name}.yaml")
+
+    def __repr__(self):
+        return f"<Scene {self.name!r}>"
+
+
+@contextlib.contextmanager
+def _written(text, name):
+    """A text as a file for a while."""
+    with tempfile.TemporaryDirectory(prefix="ghtrack-") as folder:
+        path = pathlib.Path(folder) / name
+        path.write_text(text, encoding="utf-8")
+        yield path
+
+
+def _kept(path):
+    """A file that is there, and stays."""
+    return contextlib.nullcontext(path)
+
+
+def load_scene(source):
+    """A scene from a path, from YAML text, or from a dict of the same shape.
+
+    Raises InputError that names line, column and key of everything that is wrong.
+    """
+    if isinstance(source, Scene):
+        return source
+    if isinstance(source, dict):
+        return Scene(json.dumps(source, indent=1), _file_name(source.get("name", "scene")))
+    if isinstance(source, os.PathLike) or "\n" not in source:
+        path = pathlib.Path(source)
+        try:
+            text = path.read_text(encoding="utf-8")
+        except OSError as error:
+            raise InputError(f"{path}: {error.strerror}") from error
+        return Scene(text, path.name, path.resolve().parent)
+    return Scene(source)
+
+
+def _file_name(name):
+    return "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in str(name)) or "scene"
+
+
+class Run:
+    """What a run of a scene wrote: tables and metrics, read when they are first asked for.
+
+    Attributes
+    ----------
+    folder : where the files are; a folder of its own goes when the run does
+    truth, detections, origins, tracks : tables; a series scene has series instead
+    metrics : dict, the content of metrics.json
+    summary : the table that the program prints
+    """
+
+    def __init__(self, scene, folder, options, summary, keeper=None):
+        self.scene, self.folder, self.summary = scene, pathlib.Path(folder), summary
+        self._options, self._keeper = options, keeper
+
+    def _table(self, name):
+        return Table.from_csv((self.folder / name).read_text(encoding="utf-8"))
+
+    truth = functools.cached_property(lambda self: self._table("truth.csv"))
+    detections = functools.cached_property(lambda self: self._table("detections.csv"))
+    origins = functools.cached_property(lambda self: self._table("origins.csv"))
+    tracks = functools.cached_property(lambda self: self._table("tracks.csv"))
+    series = functools.cached_property(lambda self: self._table("series.csv"))
+
+    @functools.cached_property
+    def metrics(self):
+        return json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
+
+    def render(self, path=None, **options):
+        """The annotated video or picture of this run; see render()."""
+        return render(self, path, **options)
+
+    def __repr__(self):
+        return f"<Run of {self.scene.name!r}>\n{self.summary}"
+
+    def _repr_html_(self):
+        return f"<pre>{html.escape(self.summary)}</pre>"
+
+
+def run(scene, filters=None, seed=None, duration=None, set=None, folder=None):
+    """Simulates, senses, tracks and scores a scene.
+
+    Parameters
+    ----------
+    scene : path, text, dict or Scene
+    filters : filter by class, such as {"ball": {"gh": {"g": 0.4, "h": 0.1}}}
+    seed, duration : instead of the scene's [s]
+    set : other keys of the scene to change, such as {"sensors[0].noise": 0.5}
+    folder : where to keep the files; without it they go when the Run does
+
+    Returns a Run.
+    """
+    scene = load_scene(scene)
+    changes = dict(set or {})
+    for label, config in (filters or {}).items():
+        changes[f"tracker.filters.{label}"] = config
+    options = {"seed": seed, "duration": duration, "set": changes}
+    keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
+    folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "run")
+    with scene._as_file() as path:
+        summary = call("run", path, "--no-video", "-o", folder, *option_list(options))
+    return Run(scene, folder, options, summary, keeper)
+
+
+class Picture:
+    """A video or a picture that Jupyter shows."""
+
+    _VIDEOS = {".mp4": "video/mp4", ".webm": "video/webm"}
+
+    def __init__(self, path, keeper=None):
+        self.path, self._keeper = pathlib.Path(path), keeper
+
+    @property
+    def data(self):
+        """The bytes of the file."""
+        return self.path.read_bytes()
+
+    def _repr_png_(self):
+        return self.data if self.path.suffix == ".png" else None
+
+    def _repr_html_(self):
+        import base64
+
+        kind = self._VIDEOS.get(self.path.suffix)
+        content = base64.b64encode(self.data).decode() if kind or self.path.suffix == ".gif" else None
+        if kind:
+            return f'<video controls src="data:{kind};base64,{content}"></video>'
+        return f'<img src="data:image/gif;base64,{content}">' if content else None
+
+    def __repr__(self):
+        return f"<Picture {self.path.name}, {self.path.stat().st_size} bytes>"
+
+
+def render(run_or_scene, path=None, **options):
+    """The annotated video of a run or scene, as `ghtrack video` makes it.
+
+    Parameters
+    ----------
+    path : file that ends in mp4, webm, avi, mkv, gif or png; without it a picture of the end,
+        which goes when the returned value does
+    options : those of the command, such as size="640x360", to=2, compare=True
+
+    Returns a Picture.
+    """
+    of_run = isinstance(run_or_scene, Run)
+    scene = run_or_scene.scene if of_run else load_scene(run_or_scene)
+    keeper = None if path else tempfile.TemporaryDirectory(prefix="ghtrack-")
+    path = pathlib.Path(path or pathlib.Path(keeper.name) / "picture.png")
+    base = run_or_scene._options if of_run else {}
+    with scene._as_file() as file:
+        call("video", file, "-o", path, *option_list({**base, **options}))
+    return Picture(path, keeper)
+
+
+def gains(rule, **options):
+    """Gains by a rule and what they do: the JSON of `ghtrack gains` as a dict.
+
+    gains("benedict-bordner", g=0.4), gains("tracking-index", process_noise=5, noise=0.5, dt=0.05),
+    gains("manual", g=0.5, h=0.2, k=0.02)
+    """
+    return json.loads(call("gains", rule, "--json", *option_list(options)))
+
+
+def _as_table(data, names):
+    """A table from an array of these columns, a DataFrame, a dict or a Table."""
+    if isinstance(data, Table):
+        return data
+    if hasattr(data, "columns") or isinstance(data, dict):
+        return Table({str(name): np.asarray(data[name]) for name in data})
+    array = np.asarray(data, dtype=float)
+    if array.ndim != 2 or array.shape[1] > len(names) or array.shape[1] < 3:
+        raise InputError(f"an array needs a row for each detection: {', '.join(names)}")
+    return Table(dict(zip(names, array.T)))
+
+
+def _input(data, names):
+    """The path of a file, or of one that has the data for a while."""
+    if isinstance(data, (str, os.PathLike)):
+        return _kept(data)
+    return _written(_as_table(data, names).to_csv(), "data.csv")
+
+
+def track(detections, config=None, **options):
+    """Runs the tracker over detections.
+
+    Parameters
+    ----------
+    detections : path, DataFrame, Table, dict of columns, or array of rows t, x, y
+    config : path, text or dict, as the file of `ghtrack track --config`
+    options : those of the command
+
+    Returns the tracks, a Table with the columns of tracks.csv.
+    """
+    with contextlib.ExitStack() as files:
+        path = files.enter_context(_input(detections, ("t", "x", "y")))
+        if isinstance(config, dict):
+            config = json.dumps(config, indent=1)
+        if isinstance(config, str) and "\n" in config:
+            config = files.enter_context(_written(config, "config.yaml"))
+        return Table.from_csv(call("track", path, *option_list({"config": config, **options})))
+
+
+def score(truth, tracks, **options):
+    """Scores tracks against the truth: the JSON of `ghtrack score` as a dict.
+
+    truth and tracks are paths or tables (t, truth_id, x, y and t, track_id, x, y); options are
+    those of the command, such as gospa_c=3, match_distance=2.
+    """
+    with _input(truth, ("t", "truth_id", "x", "y")) as true, _input(
+        tracks, ("t", "track_id", "x", "y")
+    ) as tracked:
+        return json.loads(
+            call("score", "--truth", true, "--tracks", tracked, "--json", *option_list(options))
+        )
+
+
+class Comparison:
+    """The results of a comparison.
+
+    Attributes
+    ----------
+    table : a row for each scene, object, filter and metric, as in comparison.csv
+    report : path of the page, folder : of all files; a folder of its own goes when this does
+    """
+
+    def __init__(self, folder, summary, keeper):
+        self.folder, self.summary, self._keeper = pathlib.Path(folder), summary, keeper
+        self.report = self.folder / "report.html"
+
+    @functools.cached_property
+    def table(self):
+        return Table.from_csv((self.folder / "comparison.csv").read_text(encoding="utf-8"))
+
+    def __repr__(self):
+        return self.summary
+
+    def _repr_html_(self):
+        page = html.escape(self.report.read_text(encoding="utf-8"))
+        return f'<iframe srcdoc="{page}" style="width:100%;height:40em;border:0"></iframe>'
+
+
+def compare(scenes, filters=None, folder=None, **options):
+    """Compares filters over many runs, every filter on the same detections.
+
+    Parameters
+    ----------
+    scenes : a path, text, dict or Scene, or a list of these
+    filters : {name: filter}, instead of what the scenes name
+    options : those of `ghtrack compare`, such as runs=20, seed=1, jobs=2
+
+    Returns a Comparison.
+    """
+    several = isinstance(scenes, (list, tuple))
+    loaded = [load_scene(scene) for scene in (scenes if several else [scenes])]
+    keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
+    folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "comparison")
+    with contextlib.ExitStack() as files:
+        paths = [files.enter_context(scene._as_file()) for scene in loaded]
+        if filters:
+            text = json.dumps({"filters": filters})
+            options["filters"] = files.enter_context(_written(text, "filters.yaml"))
+        summary = call("compare", *paths, "-o", folder, *option_list(options))
+    return Comparison(folder, summary, keeper)
+
+
+def tune(scene, **options):
+    """The best gains for each regime of a scene: the content of tuning.json as a dict.
+
+    options are those of `ghtrack tune`, such as runs=20, filter="gh".
+    """
+    scene = load_scene(scene)
+    with tempfile.TemporaryDirectory(prefix="ghtrack-") as folder, scene._as_file() as path:
+        call("tune", path, "-o", pathlib.Path(folder) / "tuning", *option_list(options))
+        return json.loads((pathlib.Path(folder) / "tuning" / "tuning.json").read_text(encoding="utf-8"))
