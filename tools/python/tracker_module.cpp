@@ -16,7 +16,7 @@
 
 #include "scenes/schema/configuration.hpp"
 #include "scenes/schema/descriptions.hpp"
-#include "tools/pipeline/offline.hpp"
+#include "tools/run/offline.hpp"
 #include "tracker/tracker.hpp"
 
 namespace py = pybind11;
@@ -129,7 +129,7 @@ class LiveTracker {
 }  // namespace
 
 PYBIND11_MODULE(_tracker, m) {
-  py::register_exception<schema::SceneError>(m, "ConfigurationError", PyExc_ValueError);
+  py::register_exception<SceneError>(m, "ConfigurationError", PyExc_ValueError);
   py::class_<LiveTracker>(m, "LiveTracker")
       .def(py::init<const std::string&, std::optional<double>>())
       .def("step", &LiveTracker::step)

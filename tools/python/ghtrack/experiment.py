@@ -1,7 +1,6 @@
 """Scenes, runs, tracking, scores and comparisons: what the program does, as Python values."""
 
 import contextlib
-import functools
 import html
 import json
 import os
@@ -37,7 +36,7 @@ class Scene:
         # A scene may name files beside it; one that was read from a file stays in its place.
         self._file = pathlib.Path(folder) / name if folder else None
         with self._as_file() as path:
-            call("check", path)
+            call("--quiet", "check", path)
 
     def _as_file(self):
         return _kept(self._file) if self._file else _written(self.text, f"{self.name}.yaml")
@@ -83,6 +82,17 @@ def _file_name(name):
     return "".join(letter if letter.isalnum() or letter in "-_" else "_" for letter in str(name)) or "scene"
 
 
+def _file_property(name, parse):
+    """A property that reads a file of the object's folder when it is first asked for."""
+
+    def value(self):
+        if name not in self._contents:
+            self._contents[name] = parse((self.folder / name).read_text(encoding="utf-8"))
+        return self._contents[name]
+
+    return property(value, doc=f"The content of {name}.")
+
+
 class Run:
     """What a run of a scene wrote: tables and metrics, read when they are first asked for.
 
@@ -96,20 +106,14 @@ class Run:
 
     def __init__(self, scene, folder, options, summary, keeper=None):
         self.scene, self.folder, self.summary = scene, pathlib.Path(folder), summary
-        self._options, self._keeper = options, keeper
+        self._options, self._keeper, self._contents = options, keeper, {}
 
-    def _table(self, name):
-        return Table.from_csv((self.folder / name).read_text(encoding="utf-8"))
-
-    truth = functools.cached_property(lambda self: self._table("truth.csv"))
-    detections = functools.cached_property(lambda self: self._table("detections.csv"))
-    origins = functools.cached_property(lambda self: self._table("origins.csv"))
-    tracks = functools.cached_property(lambda self: self._table("tracks.csv"))
-    series = functools.cached_property(lambda self: self._table("series.csv"))
-
-    @functools.cached_property
-    def metrics(self):
-        return json.loads((self.folder / "metrics.json").read_text(encoding="utf-8"))
+    truth = _file_property("truth.csv", Table.from_csv)
+    detections = _file_property("detections.csv", Table.from_csv)
+    origins = _file_property("origins.csv", Table.from_csv)
+    tracks = _file_property("tracks.csv", Table.from_csv)
+    series = _file_property("series.csv", Table.from_csv)
+    metrics = _file_property("metrics.json", json.loads)
 
     def render(self, path=None, **options):
         """The annotated video or picture of this run; see render()."""
@@ -143,7 +147,7 @@ def run(scene, filters=None, seed=None, duration=None, set=None, folder=None):
     keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
     folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "run")
     with scene._as_file() as path:
-        summary = call("run", path, "--no-video", "-o", folder, *option_list(options))
+        summary = call("--quiet", "run", path, "--no-video", "-o", folder, *option_list(options))
     return Run(scene, folder, options, summary, keeper)
 
 
@@ -193,7 +197,7 @@ def render(run_or_scene, path=None, **options):
     path = pathlib.Path(path or pathlib.Path(keeper.name) / "picture.png")
     base = run_or_scene._options if of_run else {}
     with scene._as_file() as file:
-        call("video", file, "-o", path, *option_list({**base, **options}))
+        call("--quiet", "video", file, "-o", path, *option_list({**base, **options}))
     return Picture(path, keeper)
 
 
@@ -270,11 +274,9 @@ class Comparison:
 
     def __init__(self, folder, summary, keeper):
         self.folder, self.summary, self._keeper = pathlib.Path(folder), summary, keeper
-        self.report = self.folder / "report.html"
+        self.report, self._contents = self.folder / "report.html", {}
 
-    @functools.cached_property
-    def table(self):
-        return Table.from_csv((self.folder / "comparison.csv").read_text(encoding="utf-8"))
+    table = _file_property("comparison.csv", Table.from_csv)
 
     def __repr__(self):
         return self.summary
@@ -304,7 +306,7 @@ def compare(scenes, filters=None, folder=None, **options):
         if filters:
             text = json.dumps({"filters": filters})
             options["filters"] = files.enter_context(_written(text, "filters.yaml"))
-        summary = call("compare", *paths, "-o", folder, *option_list(options))
+        summary = call("--quiet", "compare", *paths, "-o", folder, *option_list(options))
     return Comparison(folder, summary, keeper)
 
 
@@ -315,5 +317,5 @@ def tune(scene, **options):
     """
     scene = load_scene(scene)
     with tempfile.TemporaryDirectory(prefix="ghtrack-") as folder, scene._as_file() as path:
-        call("tune", path, "-o", pathlib.Path(folder) / "tuning", *option_list(options))
+        call("--quiet", "tune", path, "-o", pathlib.Path(folder) / "tuning", *option_list(options))
         return json.loads((pathlib.Path(folder) / "tuning" / "tuning.json").read_text(encoding="utf-8"))

@@ -1,0 +1,84 @@
+import os
+import pathlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ghtrack.table import Table
+
+__all__ = [
+    "Comparison",
+    "Picture",
+    "Run",
+    "Scene",
+    "compare",
+    "gains",
+    "load_scene",
+    "render",
+    "run",
+    "score",
+    "track",
+    "tune",
+]
+
+_Source = str | os.PathLike[str] | Mapping[str, Any] | "Scene"
+
+class Scene:
+    text: str
+    name: str
+    def __init__(self, text: str, name: str = ..., folder: str | os.PathLike[str] | None = ...) -> None: ...
+
+class Run:
+    scene: Scene
+    folder: pathlib.Path
+    summary: str
+    def __init__(
+        self, scene: Scene, folder: str | os.PathLike[str], options: dict[str, Any], summary: str, keeper: Any = ...
+    ) -> None: ...
+    @property
+    def truth(self) -> Table: ...
+    @property
+    def detections(self) -> Table: ...
+    @property
+    def origins(self) -> Table: ...
+    @property
+    def tracks(self) -> Table: ...
+    @property
+    def series(self) -> Table: ...
+    @property
+    def metrics(self) -> dict[str, Any]: ...
+    def render(self, path: str | os.PathLike[str] | None = ..., **options: Any) -> Picture: ...
+
+class Picture:
+    path: pathlib.Path
+    def __init__(self, path: str | os.PathLike[str], keeper: Any = ...) -> None: ...
+    @property
+    def data(self) -> bytes: ...
+
+class Comparison:
+    folder: pathlib.Path
+    summary: str
+    report: pathlib.Path
+    def __init__(self, folder: str | os.PathLike[str], summary: str, keeper: Any) -> None: ...
+    @property
+    def table(self) -> Table: ...
+
+def load_scene(source: _Source) -> Scene: ...
+def run(
+    scene: _Source,
+    filters: Mapping[str, Any] | None = ...,
+    seed: int | None = ...,
+    duration: float | None = ...,
+    set: Mapping[str, Any] | None = ...,
+    folder: str | os.PathLike[str] | None = ...,
+) -> Run: ...
+def render(run_or_scene: Run | _Source, path: str | os.PathLike[str] | None = ..., **options: Any) -> Picture: ...
+def gains(rule: str, **options: Any) -> dict[str, Any]: ...
+def track(detections: Any, config: str | os.PathLike[str] | Mapping[str, Any] | None = ..., **options: Any) -> Table: ...
+def score(truth: Any, tracks: Any, **options: Any) -> dict[str, Any]: ...
+def compare(
+    scenes: _Source | Sequence[_Source],
+    filters: Mapping[str, Any] | None = ...,
+    folder: str | os.PathLike[str] | None = ...,
+    **options: Any,
+) -> Comparison: ...
+def tune(scene: _Source, **options: Any) -> dict[str, Any]: ...
