@@ -234,9 +234,8 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields,
 }
 
 bool is_text(std::string_view text) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = text_character(bytes + i, text.size() - i);
+    const std::size_t length = text_character(text.substr(i));
     if (length == 0) return false;
     i += length;
   }

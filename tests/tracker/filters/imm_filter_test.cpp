@@ -34,7 +34,9 @@ TEST(ImmFilter, OfEqualModesIsTheFilterItself) {
     imm.update(z);
     EXPECT_LT((imm.estimate().position - single.estimate().position).norm(), 1e-9);
     EXPECT_LT((imm.position_sigma() - single.position_sigma()).norm(), 1e-9);
-    if (i > 0) EXPECT_NEAR(imm.log_likelihood(), single.log_likelihood(), 1e-9);
+    if (i > 0) {
+      EXPECT_NEAR(imm.log_likelihood(), single.log_likelihood(), 1e-9);
+    }
   }
 }
 

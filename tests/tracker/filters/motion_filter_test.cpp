@@ -49,7 +49,9 @@ TEST(MotionFilter, IsTheKalmanFilterWhereAllIsLinear) {
       EXPECT_LT((filter->estimate().position - kalman.estimate().position).norm(), 1e-9);
       EXPECT_LT((filter->estimate().acceleration - kalman.estimate().acceleration).norm(), 1e-8);
       EXPECT_LT((filter->position_sigma() - kalman.position_sigma()).norm(), 1e-9);
-      if (i > 0) EXPECT_NEAR(filter->log_likelihood(), kalman.log_likelihood(), 1e-8);
+      if (i > 0) {
+        EXPECT_NEAR(filter->log_likelihood(), kalman.log_likelihood(), 1e-8);
+      }
     }
   }
 }
