@@ -9,6 +9,7 @@
 #include "scenes/schema/json_schema.hpp"
 #include "scenes/schema/reader.hpp"
 #include "scenes/schema/reference.hpp"
+#include "scenes/schema/scene_check.hpp"
 #include "scenes/schema/value_json.hpp"
 #include "scenes/schema/writer.hpp"
 
@@ -22,6 +23,13 @@ struct SceneFile {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.tagged("kind", &SceneFile::scene, {.meaning = "what the file describes"});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    const auto* const world = std::get_if<WorldScene>(&scene);
+    if (world == nullptr) return;
+    for (const SceneProblem& problem : find_problems(*world)) report(problem.path, problem.message);
   }
 };
 

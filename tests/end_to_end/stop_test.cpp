@@ -72,6 +72,15 @@ INSTANTIATE_TEST_SUITE_P(
         Lasting{"Tune", "", "ghtrack tune " + kScene + " --runs 500"}),
     [](const auto& one) { return one.param.name; });
 
+// Derived: a pipe among the parts of a campaign is no part, and nobody waits for it.
+TEST(Merge, WaitsForNoPipe) {
+  const TemporaryFolder folder;
+  const Outcome outcome = shell(
+      "mkdir parts && mkfifo parts/shard-0-of-1.runs && timeout 20 ghtrack compare --merge parts",
+      folder.path());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+}
+
 // Property: while a run writes into a folder no other one does; the folder then holds one result.
 TEST(TwoProcesses, NeverMixTheirFiles) {
   const TemporaryFolder folder;
@@ -132,12 +141,15 @@ TEST(Foreign, FilesStayWhatTheyAre) {
   write(at / "pics.partial" / "mine.txt", "mine\n");
   fs::create_directories(at / "full");
   write(at / "full" / "frame_000000.png", "mine\n");
+  fs::create_directories(at / "c");
+  fs::create_symlink(at / "victim", at / "c" / "shard-0-of-1.runs.partial");
   const std::string video = "ghtrack video " + kScene + " -q --to 0.1 --size 320x180 ";
   EXPECT_EQ(shell("ghtrack run " + kScene + " -q --no-video --duration 1 -o r", at).exit_code, 0);
   EXPECT_EQ(shell("ghtrack -q track r/detections.csv -o t.csv", at).exit_code, 0);
   EXPECT_EQ(shell(video + "-o v.avi", at).exit_code, 0);
   EXPECT_EQ(shell(video + "-o pics/ && " + video + "-o pics/", at).exit_code, 0);
   EXPECT_EQ(shell(video + "-o full/", at).exit_code, 2);
+  EXPECT_EQ(shell("ghtrack compare " + kScene + " -q --runs 1 --duration 1 -o c", at).exit_code, 1);
   EXPECT_EQ(contents(at / "victim"), "mine\n");
   EXPECT_EQ(contents(at / "pics.partial" / "mine.txt"), "mine\n");
   EXPECT_EQ(contents(at / "full" / "frame_000000.png"), "mine\n");

@@ -171,5 +171,25 @@ TEST_F(Usage, ExamplesOfTheHelpWork) {
   }
 }
 
+// Derived: tables fit the terminal that COLUMNS tells of, and 80 columns without one.
+TEST_F(Usage, TablesFitTheTerminal) {
+  for (const std::string words :
+       {"run scenes/three_regimes.yaml -q --duration 3 --no-video -o a",
+        "compare scenes/three_regimes.yaml -q --runs 2 --duration 3 -o b",
+        "tune scenes/throwing.yaml -q --runs 2 --duration 3"}) {
+    for (const auto& [columns, width] :
+         std::vector<std::pair<std::string, std::size_t>>{{"", 80}, {"COLUMNS=60 ", 60},
+                                                         {"COLUMNS=200 ", 200}}) {
+      const Outcome outcome = shell(columns + "ghtrack " + words, folder());
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      const auto lines = lines_of(outcome.out);
+      for (const std::string& line : lines) {
+        const bool is_row = line.find("  ") != std::string::npos;  // sentences may be longer
+        EXPECT_LE(is_row ? characters(line) : 0, width) << columns << line;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ghtrack::testing

@@ -115,7 +115,7 @@ void publish(const Campaign& campaign, const Results& results, const fs::path& f
   write_file(files.scratch() / "report.html",
              comparison_report(comparison, {.videos = videos_in(folder, campaign)}));
   files.commit();
-  print(to_table(comparison));
+  print(to_table(comparison, terminal_width()));
   if (!manners.quiet) tell("results in {}", folder.string());
 }
 

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenes/schema/diagnostic.hpp"
@@ -15,12 +18,17 @@
 #include "tools/cli/messages.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tracker/filters/gains/analysis.hpp"
+#include "tracker/filters/gains/polynomial_memory.hpp"
 #include "tracker/filters/gains/rules.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+// Where the closed forms keep their digits.
+constexpr double kLeastTrackingIndex = 1e-9;
+constexpr double kMostTrackingIndex = 1e6;
 
 template <class Value>
 Value need(const std::optional<Value>& option, const char* name, const std::string& rule) {
@@ -53,39 +61,73 @@ double index_of(const GainsCommandOptions& options) {
     throw UsageError(
         "gains tracking-index: give --index, or --process-noise and --noise with --dt");
   }
-  return tracking_index(*options.process_noise, *options.noise, options.dt);
+  const double index = tracking_index(*options.process_noise, *options.noise, options.dt);
+  if (index >= kLeastTrackingIndex && index <= kMostTrackingIndex) return index;
+  throw UsageError(
+      fmt::format("gains tracking-index: process noise * dt^2 / noise is {:.4g}; allowed: {} to {}",
+                  index, kLeastTrackingIndex, kMostTrackingIndex));
 }
 
-using Rule = std::function<Gains(const GainsCommandOptions&)>;
+/// A rule, and the options that choose its gains; --dt, --sigma, --accel, --jerk and --json are for
+/// all.
+struct Rule {
+  std::function<Gains(const GainsCommandOptions&)> gains;
+  std::vector<std::string_view> options;
+};
 
 const std::map<std::string, Rule, std::less<>>& rules() {
   using Options = GainsCommandOptions;
   static const std::map<std::string, Rule, std::less<>> all = {
-      {"manual", manual},
+      {"manual", {manual, {"--g", "--h", "--k", "--gamma"}}},
       {"benedict-bordner",
-       [](const Options& o) { return benedict_bordner_gains(need(o.g, "--g", o.rule)); }},
+       {[](const Options& o) { return benedict_bordner_gains(need(o.g, "--g", o.rule)); },
+        {"--g"}}},
       {"critical-damping",
-       [](const Options& o) {
-         return fading_memory_gains(order_of(o, 1), need(o.theta, "--theta", o.rule));
-       }},
+       {[](const Options& o) {
+          return fading_memory_gains(order_of(o, 1), need(o.theta, "--theta", o.rule));
+        },
+        {"--theta", "--order"}}},
       {"fading-memory",
-       [](const Options& o) {
-         return fading_memory_gains(order_of(o, 0), need(o.theta, "--theta", o.rule));
-       }},
+       {[](const Options& o) {
+          return fading_memory_gains(order_of(o, 0), need(o.theta, "--theta", o.rule));
+        },
+        {"--theta", "--order"}}},
       {"least-squares",
-       [](const Options& o) {
-         return growing_memory_gains(order_of(o, 0), need(o.n, "--n", o.rule));
-       }},
+       {[](const Options& o) {
+          return growing_memory_gains(order_of(o, 0), need(o.n, "--n", o.rule));
+        },
+        {"--n", "--order"}}},
       {"tracking-index",
-       [](const Options& o) { return tracking_index_gains(order_of(o, 0), index_of(o)); }},
+       {[](const Options& o) { return tracking_index_gains(order_of(o, 0), index_of(o)); },
+        {"--index", "--process-noise", "--noise", "--order"}}},
       {"maximum-acceleration",
-       [](const Options& o) {
-         return maximum_acceleration_gains(std::abs(o.accel) * o.dt * o.dt / o.sigma);
-       }},
+       {[](const Options& o) {
+          return maximum_acceleration_gains(std::abs(o.accel) * o.dt * o.dt / o.sigma);
+        },
+        {}}},
       {"polge-bhagavan",
-       [](const Options& o) { return polge_bhagavan_gains(need(o.g, "--g", o.rule)); }},
+       {[](const Options& o) { return polge_bhagavan_gains(need(o.g, "--g", o.rule)); },
+        {"--g"}}},
   };
   return all;
+}
+
+/// An option that the rule makes nothing of is a misunderstanding: `benedict-bordner --order 2`.
+void refuse_unused_options(const GainsCommandOptions& options, const Rule& rule) {
+  const std::pair<std::string_view, bool> given[] = {
+      {"--g", options.g.has_value()},         {"--h", options.h.has_value()},
+      {"--k", options.k.has_value()},         {"--gamma", options.gamma.has_value()},
+      {"--theta", options.theta.has_value()}, {"--n", options.n.has_value()},
+      {"--order", options.order.has_value()}, {"--index", options.index.has_value()},
+      {"--noise", options.noise.has_value()}, {"--process-noise", options.process_noise.has_value()}};
+  for (const auto& [name, is_given] : given) {
+    const bool used = std::find(rule.options.begin(), rule.options.end(), name) != rule.options.end();
+    if (!is_given || used) continue;
+    const std::string wanted =
+        rule.options.empty() ? "--accel, --sigma, --dt" : fmt::format("{}", fmt::join(rule.options, ", "));
+    throw UsageError(fmt::format("gains {}: {} chooses nothing here; this rule takes {}",
+                                 options.rule, name, wanted));
+  }
 }
 
 Gains gains_by_rule(const GainsCommandOptions& options) {
@@ -96,8 +138,9 @@ Gains gains_by_rule(const GainsCommandOptions& options) {
     throw UsageError(fmt::format("gains: unknown rule '{}'{}", printable(options.rule),
                                  hint(options.rule, "rules", names)));
   }
+  refuse_unused_options(options, rule->second);
   try {
-    return rule->second(options);
+    return rule->second.gains(options);
   } catch (const UsageError&) {
     throw;
   } catch (const std::invalid_argument& error) {
@@ -109,12 +152,33 @@ double next_derivative(const GainsCommandOptions& options, int order) {
   return order == 2 ? options.jerk : order == 1 ? options.accel : 0.0;
 }
 
+/// What is not finite is not known.
+ordered_json known(double value) { return std::isfinite(value) ? ordered_json(value) : nullptr; }
+
 /// Components that the order does not have are null.
 ordered_json by_component(int order, double x, double dx, double ddx) {
-  ordered_json json = {{"x", x}};
-  json["dx"] = order >= 1 ? ordered_json(dx) : ordered_json();
-  json["ddx"] = order >= 2 ? ordered_json(ddx) : ordered_json();
+  ordered_json json = {{"x", known(x)}};
+  json["dx"] = order >= 1 ? known(dx) : ordered_json();
+  json["ddx"] = order >= 2 ? known(ddx) : ordered_json();
   return json;
+}
+
+/// Of growing-memory gains the variances after n measurements count, not those that these gains
+/// would have if they were held for ever. n points determine a polynomial of a lower order only.
+/// Zarchan & Musoff, Fundamentals of Kalman Filtering, chapter 3.
+VarianceReduction variances_of(const Gains& gains, const GainsCommandOptions& options) {
+  if (options.rule != "least-squares") return variance_reduction(gains, options.dt);
+  const auto sigma = growing_memory_sigma(gains.order, *options.n, 1.0, options.dt);
+  const double n = *options.n;
+  VarianceReduction variances;
+  variances.x = sigma[0] * sigma[0];
+  variances.dx = sigma[1] * sigma[1];
+  variances.ddx = sigma[2] * sigma[2];
+  variances.prediction = gains.order == 0   ? 1.0 / n
+                         : gains.order == 1 ? 2.0 * (2.0 * n + 1.0) / (n * (n - 1.0))
+                                            : 3.0 * (3.0 * n * n + 3.0 * n + 2.0) /
+                                                  (n * (n - 1.0) * (n - 2.0));
+  return variances;
 }
 
 ordered_json analysis_of(const Gains& gains, const GainsCommandOptions& options) {
@@ -141,11 +205,11 @@ ordered_json analysis_of(const Gains& gains, const GainsCommandOptions& options)
     json["transient_energy"] = nullptr;
     return json;
   }
-  const VarianceReduction vrf = variance_reduction(gains, options.dt);
+  const VarianceReduction vrf = variances_of(gains, options);
   const Lag lag = steady_lag(gains, options.dt, next_derivative(options, order));
   const TransientEnergy energy = transient_energy(gains, options.dt);
   json["vrf"] = by_component(order, vrf.x, vrf.dx, vrf.ddx);
-  json["vrf"]["prediction"] = vrf.prediction;
+  json["vrf"]["prediction"] = known(vrf.prediction);
   json["lag"] = {{"prediction", lag.prediction}};
   json["lag"].update(by_component(order, lag.x, lag.dx, lag.ddx));
   json["settling_updates"] = settling_updates(gains);
@@ -156,6 +220,18 @@ ordered_json analysis_of(const Gains& gains, const GainsCommandOptions& options)
   return json;
 }
 
+/// In words that agree with the ratio as it is printed.
+std::string damping_text(const Gains& gains) {
+  const Damping kind = damping(gains);
+  if (kind == Damping::kAlternating) return "alternating";
+  if (gains.order == 0) return "without overshoot";
+  const std::string ratio = fmt::format("{:.4g}", damping_ratio(gains));
+  const bool is_critical = ratio == "1" || kind == Damping::kCritical;
+  return fmt::format("{} (damping ratio {})",
+                     is_critical ? "critically damped" : fmt::format("{}-damped", to_string(kind)),
+                     ratio);
+}
+
 std::string as_text(const Gains& gains, const GainsCommandOptions& options) {
   std::string text = fmt::format("g = {}\n", gains.g);
   if (gains.order >= 1) text += fmt::format("h = {}\n", gains.h);
@@ -163,13 +239,10 @@ std::string as_text(const Gains& gains, const GainsCommandOptions& options) {
   if (const auto violated = violated_inequality(gains)) {
     return text + fmt::format("unstable: {} does not hold\n", *violated);
   }
-  const VarianceReduction vrf = variance_reduction(gains, options.dt);
+  const VarianceReduction vrf = variances_of(gains, options);
   const Lag lag = steady_lag(gains, options.dt, next_derivative(options, gains.order));
-  text += fmt::format("stable, {}damped (damping ratio {:.4g}), settles to 2 % in {:.3g} updates\n",
-                      damping(gains) == Damping::kAlternating
-                          ? "alternating, "
-                          : fmt::format("{}-", to_string(damping(gains))),
-                      damping_ratio(gains), settling_updates(gains));
+  text += fmt::format("stable, {}, settles to 2 % in {:.3g} updates\n", damping_text(gains),
+                      settling_updates(gains));
   text += fmt::format("poles:");
   for (const std::complex<double>& pole : poles(gains)) {
     text += pole.imag() == 0.0 ? fmt::format("  {:.6g}", pole.real())
@@ -185,6 +258,10 @@ std::string as_text(const Gains& gains, const GainsCommandOptions& options) {
   row("x", vrf.x, lag.x);
   if (gains.order >= 1) row("dx", vrf.dx, lag.dx);
   if (gains.order >= 2) row("ddx", vrf.ddx, lag.ddx);
+  if (options.rule == "least-squares") {
+    text += fmt::format("variances: after {} measurements; lag: if these gains were kept\n",
+                        *options.n);
+  }
   return text;
 }
 

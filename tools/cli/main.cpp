@@ -326,7 +326,7 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
   add_number(command, "--n", options.n, {.least = 1, .most = 1e6},
              "least-squares: number of measurements so far");
   add_number(command, "--order", options.order, {.least = 0, .most = 2}, "0, 1 or 2 (default: 1)");
-  add_number(command, "--index", options.index, {.least = 0, .most = 1e9, .above_least = true},
+  add_number(command, "--index", options.index, {.least = 1e-9, .most = 1e6},
              "tracking index: process noise * dt^2 / noise");
   add_number(command, "--process-noise", options.process_noise, kModelNoise,
              "1-sigma random acceleration [m/s^2]");

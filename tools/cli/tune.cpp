@@ -89,7 +89,7 @@ int tune(const TuneOptions& options, const Manners& manners) {
     results.commit();
     if (!manners.quiet) tell("results in {}", options.output);
   }
-  print(to_table(tuning) + "\n# the best of them, to be pasted into the scene\n" +
+  print(to_table(tuning, terminal_width()) + "\n# the best of them, to be pasted into the scene\n" +
         scene_fragment(tuning));
   return 0;
 }

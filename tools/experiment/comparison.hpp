@@ -131,6 +131,6 @@ std::string comparison_csv(const Comparison& comparison);
 nlohmann::ordered_json to_json(const Comparison& comparison);
 
 /// The table of regimes and filters, for a terminal: RMSE of position with its interval.
-std::string to_table(const Comparison& comparison);
+std::string to_table(const Comparison& comparison, std::size_t width = 80);
 
 }  // namespace ghtrack

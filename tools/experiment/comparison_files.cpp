@@ -124,7 +124,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
   return {{"filters", comparison.filters}, {"cells", std::move(cells)}, {"rows", std::move(rows)}};
 }
 
-std::string to_table(const Comparison& comparison) {
+std::string to_table(const Comparison& comparison, std::size_t width) {
   std::map<TableKey, std::map<std::size_t, const ComparisonRow*>> lines;
   for (const ComparisonRow& row : comparison.rows) {
     if (row.metric != Metric::kRmsePosition || row.regime.empty() || !row.object.empty()) continue;
@@ -145,10 +145,9 @@ std::string to_table(const Comparison& comparison) {
     const std::optional<double>& bound = filters.begin()->second->bound;
     line.push_back(bound ? fmt::format("{:.3g}", *bound) : "");
   }
-  return "RMSE of position [m] and half of its 95 % interval; * better than all others, = the best "
-         "or not\ndistinguishable from it; bound: the least error of a filter that knows which "
-         "detection is whose\n\n" +
-         text_table(columns, table);
+  return "RMSE of position [m] ± half of its 95 % interval; * better than all others, = tied\n"
+         "with the best; bound: least error of a filter that knows which detection is whose\n\n" +
+         text_table(columns, table, {.width = width, .repeated = 2});
 }
 
 }  // namespace ghtrack

@@ -9,12 +9,18 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <future>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -23,6 +29,13 @@
 
 namespace ghtrack {
 namespace {
+
+/// A value that overflowed is none.
+void drop_infinities(std::vector<double>& scores) {
+  for (double& score : scores) {
+    if (std::isinf(score)) score = std::numeric_limits<double>::quiet_NaN();
+  }
+}
 
 /// A cell's trial: made when its first run is asked for, gone when its last one is done.
 class SharedTrial {
@@ -33,6 +46,7 @@ class SharedTrial {
   std::vector<double> scores(int run, TruthSource& truth) {
     std::call_once(made_, [this] { trial_ = std::make_unique<Trial>(scene_, on_step_); });
     std::vector<double> scores = trial_->scores(run, truth, {});
+    drop_infinities(scores);
     if (--runs_left_ == 0) trial_.reset();
     return scores;
   }
@@ -111,6 +125,24 @@ std::string place_of(const CampaignCell& cell, int run) {
          std::to_string(run);
 }
 
+/// So many threads, or as many as the system gives this process. oneTBB itself would abort where a
+/// limit on processes or memory leaves it without one.
+int available_threads(std::size_t wanted) {
+  std::vector<std::jthread> threads;
+  std::promise<void> known;
+  const std::shared_future<void> released = known.get_future().share();
+  try {
+    while (threads.size() + 1 < wanted) threads.emplace_back([released] { released.wait(); });
+  } catch (const std::system_error&) {
+    // no more than these
+  } catch (const std::bad_alloc&) {
+  }
+  known.set_value();
+  const bool all = threads.size() + 1 >= wanted;
+  // Where there is a limit, others may need threads as well: be content with half.
+  return static_cast<int>(std::max<std::size_t>(1, all ? wanted : threads.size() / 2));
+}
+
 }  // namespace
 
 std::int64_t runs_to_do(const Campaign& campaign, const Shard& shard, const Results& results) {
@@ -146,6 +178,16 @@ void compute(const Campaign& campaign, const Shard& shard, const Results& result
       throw std::runtime_error(place_of(campaign.cells[cell], item.run) + ": " + error.what());
     }
   };
+  const auto deliver = [&](Outcome outcome) {
+    for (std::size_t i = 0; i < outcome.scores.size(); ++i) {
+      on_result(outcome.item.cells[i], outcome.item.run, std::move(outcome.scores[i]));
+    }
+  };
+  jobs = available_threads(static_cast<std::size_t>(jobs));
+  if (jobs == 1) {
+    while (const std::optional<Item> item = items.next()) deliver(run(*item));
+    return;
+  }
   const auto tokens = static_cast<std::size_t>(2 * jobs);  // runs under way or waiting
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
@@ -158,17 +200,16 @@ void compute(const Campaign& campaign, const Shard& shard, const Results& result
                                                return Item{};
                                              }) &
                     tbb::make_filter<Item, Outcome>(tbb::filter_mode::parallel, run) &
-                    tbb::make_filter<Outcome, void>(
-                        tbb::filter_mode::serial_out_of_order, [&](Outcome outcome) {
-                          for (std::size_t i = 0; i < outcome.scores.size(); ++i) {
-                            on_result(outcome.item.cells[i], outcome.item.run,
-                                      std::move(outcome.scores[i]));
-                          }
-                        }));
+                    tbb::make_filter<Outcome, void>(tbb::filter_mode::serial_in_order, deliver));
   });
 }
 
 void in_parallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& task) {
+  jobs = available_threads(std::min<std::size_t>(static_cast<std::size_t>(jobs), count));
+  if (jobs == 1) {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+    return;
+  }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
   tbb::task_arena(jobs).execute([&] { tbb::parallel_for(std::size_t{0}, count, task); });

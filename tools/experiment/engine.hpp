@@ -13,8 +13,9 @@ std::int64_t runs_to_do(const Campaign& campaign, const Shard& shard, const Resu
 
 /// Computes the missing runs of a share with `jobs` threads.
 /// @param on_step    called again and again by all threads; may throw to give up
-/// @param on_result  gets the scores of each run, one call at a time, in whatever order they come;
-///                   an exception ends the computation and is passed on
+/// @param jobs       threads; fewer if the system does not allow so many
+/// @param on_result  gets the scores of each run, one call at a time, in the order of cells and
+///                   runs; an exception ends the computation and is passed on
 /// @throws std::runtime_error naming the scene and the run in which something went wrong
 void compute(const Campaign& campaign, const Shard& shard, const Results& results, int jobs,
              const std::function<void()>& on_step,

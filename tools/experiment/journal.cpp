@@ -2,18 +2,20 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "sim/random.hpp"
+#include "tools/experiment/trial.hpp"
 #include "tools/record/errors.hpp"
 
 namespace ghtrack {
@@ -21,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "ghtrack runs 1\n";
+constexpr std::string_view kMagic = "ghtrack runs 2\n";
 constexpr std::string_view kExtension = ".runs";
 constexpr std::string_view kPartial = ".partial";
 
@@ -32,11 +34,33 @@ void append(std::string& bytes, Number number) {
   bytes.append(raw, sizeof number);
 }
 
+/// Text with its length in front.
+void append_text(std::string& bytes, const std::string& text) {
+  append(bytes, static_cast<std::uint64_t>(text.size()));
+  bytes += text;
+}
+
+/// What a record's numbers mean: names, units and kinds in their order. A program that stores
+/// something else, or in another byte order, must not take one for the other.
+std::string meaning_of_numbers() {
+  constexpr bool kLittle = std::endian::native == std::endian::little;
+  std::string text = kLittle ? "IEEE doubles, little-endian; " : "IEEE doubles, big-endian; ";
+  text += "by filter: by subject: values, predictions of ";
+  for (const Metric metric : all_metrics()) {
+    const MetricInfo& about = info(metric);
+    text += std::string(about.name) + " [" + std::string(about.unit) + "]";
+    if (about.averaging.mean_square) text += " mean square";
+    if (about.averaging.skewed) text += " skewed";
+    text += ", ";
+  }
+  return text + "by regime: curves of " + std::to_string(TrialLayout::kBins) + " bins\n";
+}
+
 std::string header_of(const Campaign& campaign) {
-  const std::string text = write_campaign(campaign);
   std::string header(kMagic);
-  append(header, static_cast<std::uint64_t>(text.size()));
-  return header + text;
+  append_text(header, meaning_of_numbers());
+  append_text(header, write_campaign(campaign));
+  return header;
 }
 
 std::string record_of(std::size_t cell, int run, const std::vector<double>& scores) {
@@ -96,26 +120,69 @@ std::optional<Record> next_record(Bytes& bytes) {
   return record;
 }
 
-/// Nothing if the file is not there.
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw InputError(path.string() + ": error: " + reason);
+}
+
+/// Nothing if the file is not there. Waits for no pipe.
 std::optional<std::string> bytes_if_there(const fs::path& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file.is_open() && errno == ENOENT) return std::nullopt;
-  std::string bytes(std::istreambuf_iterator<char>(file), {});
-  if (!file.is_open() || file.bad()) {
-    throw InputError(path.string() + ": error: cannot be read");
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0 && errno == ENOENT) return std::nullopt;
+  if (descriptor < 0) refuse(path, "cannot be read: " + std::generic_category().message(errno));
+  struct stat about {};
+  std::string bytes;
+  ssize_t got = -1;
+  if (::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode)) {
+    bytes.resize(static_cast<std::size_t>(about.st_size));
+    std::size_t filled = 0;
+    do {
+      got = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
+      filled += got > 0 ? static_cast<std::size_t>(got) : 0;
+    } while (got > 0 && filled < bytes.size());
+    bytes.resize(filled);
   }
+  ::close(descriptor);
+  if (got < 0) refuse(path, "cannot be read as a file of runs");
   return bytes;
 }
 
 /// Skips the header. @returns the campaign's text
 std::string_view take_header(Bytes& bytes, const fs::path& path) {
-  const bool is_journal = bytes.take(kMagic.size()) == kMagic;
-  const auto length = bytes.take<std::uint64_t>();
-  if (!is_journal || !length || *length > bytes.left()) {
-    throw InputError(path.string() + ": error: is not a file of runs, or was cut off at its start");
+  const auto take_text = [&] {
+    const auto length = bytes.take<std::uint64_t>();
+    if (!length || *length > bytes.left()) {
+      refuse(path, "is not a file of runs, or was cut off at its start");
+    }
+    return bytes.take(*length);
+  };
+  if (bytes.take(kMagic.size()) != kMagic) {
+    refuse(path, "is not a file of runs of this version, or was cut off at its start");
   }
-  return bytes.take(*length);
+  if (take_text() != meaning_of_numbers()) {
+    refuse(path, "holds other metrics than this build of the program, or in another order");
+  }
+  return take_text();
+}
+
+/// Checks a record before anything is made of it: its check sum says only that it was written so.
+void check(const Record& record, const Campaign& campaign, std::size_t size,
+           const fs::path& path) {
+  const auto run = std::to_string(record.run);
+  if (record.run >= static_cast<std::uint64_t>(campaign.cells[record.cell].runs())) {
+    refuse(path, "holds a run " + run + " that the campaign does not have");
+  }
+  if (record.scores.size() != size) {
+    refuse(path, "holds " + std::to_string(record.scores.size()) + " numbers for run " + run +
+                     "; there must be " + std::to_string(size));
+  }
+  const auto is_infinite = [](double score) { return std::isinf(score); };
+  const auto is_missing = [](double score) { return std::isnan(score); };
+  if (std::any_of(record.scores.begin(), record.scores.end(), is_infinite)) {
+    refuse(path, "holds an infinite number for run " + run);
+  }
+  if (std::all_of(record.scores.begin(), record.scores.end(), is_missing)) {
+    refuse(path, "holds no number at all for run " + run);
+  }
 }
 
 /// How many bytes of a journal of this campaign are sound; 0 if it cannot be gone on with.
@@ -153,9 +220,12 @@ Journal::Journal(const fs::path& folder, const Shard& shard, const Campaign& cam
   const std::string header = header_of(campaign);
   std::error_code ignored;
   if (resume && fs::exists(path_, ignored)) fs::rename(path_, partial_path_, ignored);
-  descriptor_ = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  descriptor_ = ::open(partial_path_.c_str(), kFlags, 0666);
   if (descriptor_ < 0) fail();
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  const bool is_taken = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (is_taken || !is_still_ours()) {
+    ::close(descriptor_);
     throw WriteError(partial_path_.string() +
                      ": error: another process is writing this file; under srun, MPI ranks need "
                      "--mpi=pmix");
@@ -169,6 +239,14 @@ Journal::Journal(const fs::path& folder, const Shard& shard, const Campaign& cam
 
 Journal::~Journal() {
   if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+/// Between opening and locking, who had the lock may have given the file its final name.
+bool Journal::is_still_ours() const {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(descriptor_, &opened) == 0 && ::lstat(partial_path_.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
 void Journal::add(std::size_t cell, int run, const std::vector<double>& scores) {
@@ -228,15 +306,19 @@ void read_journal(const fs::path& journal, const Campaign& campaign, Results& re
   if (!all || header_of(campaign).starts_with(*all)) return;
   Bytes bytes(*all);
   if (take_header(bytes, journal) != write_campaign(campaign)) {
-    throw InputError(journal.string() +
-                     ": error: is of another campaign: other scenes, filters, runs or seed, or "
-                     "another version of the program; remove it, or choose another folder");
+    refuse(journal,
+           "is of another campaign: other scenes, filters, runs or seed, or another version of the "
+           "program; remove it, or choose another folder");
   }
+  std::vector<std::optional<std::size_t>> sizes(campaign.cells.size());  // of a record, by cell
   while (auto record = next_record(bytes)) {
-    const bool known =
-        record->cell < campaign.cells.size() &&
-        record->run < static_cast<std::uint64_t>(campaign.cells[record->cell].runs());
-    if (known) results.put(record->cell, static_cast<int>(record->run), std::move(record->scores));
+    if (record->cell >= campaign.cells.size()) {
+      refuse(journal, "holds runs of a scene that the campaign does not have");
+    }
+    std::optional<std::size_t>& size = sizes[record->cell];
+    if (!size) size = layout_of(campaign.cells[record->cell].scene).size();
+    check(*record, campaign, *size, journal);
+    results.put(record->cell, static_cast<int>(record->run), std::move(record->scores));
   }
 }
 

@@ -39,8 +39,10 @@ class Results {
 };
 
 /// The file of a share: `<folder>/shard-I-of-N.runs`. While runs are missing its name ends in
-/// `.partial`. Numbers are IEEE doubles in the byte order of the machine; every run is followed by
-/// a check sum, and what comes after a damaged one is ignored.
+/// `.partial`. Its header says which campaign it is of and what its numbers mean, name by name.
+/// Numbers are IEEE doubles in the byte order of the machine; every run is followed by a check sum,
+/// and what comes after a damaged one is ignored. Runs stand in the order of their numbers, so that
+/// the bytes are the same for any number of threads.
 class Journal {
  public:
   /// Begins the file, in place of an older one, or goes on with it if `resume` and it is there.
@@ -58,6 +60,7 @@ class Journal {
   void complete();
 
  private:
+  bool is_still_ours() const;
   void write(const std::string& bytes);
   [[noreturn]] void fail() const;
 
@@ -79,7 +82,8 @@ Campaign campaign_of(const std::filesystem::path& journal);
 
 /// Adds what a journal holds: nothing if it is not there, because the process that writes it has
 /// just renamed it, or ends within its first bytes.
-/// @throws InputError if it is no journal, or one of another campaign
+/// @throws InputError if it is no journal, or one of another campaign or of a program that stores
+///         other numbers, or if a sound record holds what no run can have given
 void read_journal(const std::filesystem::path& journal, const Campaign& campaign, Results& results);
 
 }  // namespace ghtrack

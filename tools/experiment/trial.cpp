@@ -117,6 +117,12 @@ class StepCounter final : public RunObserver {
 
 }  // namespace
 
+TrialLayout layout_of(const WorldScene& scene) {
+  const std::vector<ObjectInfo> objects = world_of_run(scene, 0).objects();
+  const std::vector<std::string> regimes = regimes_of(objects);
+  return {compared_filters(scene).size(), subjects_of(objects, regimes).size(), regimes.size()};
+}
+
 Trial::Trial(const WorldScene& scene, std::function<void()> on_step)
     : scene_(scene),
       on_step_(std::move(on_step)),

@@ -56,6 +56,9 @@ class TrialLayout {
   std::size_t regimes_;
 };
 
+/// The layout of a cell's results, without making it ready to run.
+TrialLayout layout_of(const WorldScene& scene);
+
 /// One cell of a campaign, ready to run. Constant operations are safe to use from several threads.
 class Trial {
  public:

@@ -65,6 +65,7 @@ Tuning tune(
 std::string scene_fragment(const Tuning& tuning);
 
 nlohmann::ordered_json to_json(const Tuning& tuning);
-std::string to_table(const Tuning& tuning);
+/// For a terminal of so many columns, the best first.
+std::string to_table(const Tuning& tuning, std::size_t width = 80);
 
 }  // namespace ghtrack

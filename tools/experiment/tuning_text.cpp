@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tools/experiment/tuning.hpp"
 #include "tools/metrics/text_table.hpp"
-#include "tools/record/csv_writer.hpp"
 
 namespace ghtrack {
 namespace {
@@ -22,16 +22,11 @@ Json range(const std::optional<Interval>& interval) {
   return Json::array({number(interval->low), number(interval->high)});
 }
 
-/// "{gh: {g: 0.4, h: 0.1}}", every digit.
+/// "{gh: {g: 0.4, h: 0.1}}", to four digits: what is left out is far below what a tuning can tell.
 std::string filter_text(const Gains& gains) {
   std::string text = gains.order == 1 ? "{gh: {g: " : "{ghk: {g: ";
-  append_number(text, gains.g);
-  text += ", h: ";
-  append_number(text, gains.h);
-  if (gains.order == 2) {
-    text += ", k: ";
-    append_number(text, gains.k);
-  }
+  text += fmt::format("{:.4g}, h: {:.4g}", gains.g, gains.h);
+  if (gains.order == 2) text += fmt::format(", k: {:.4g}", gains.k);
   return text + "}}";
 }
 
@@ -79,7 +74,7 @@ nlohmann::ordered_json to_json(const Tuning& tuning) {
           {"sigma", tuning.sigma}, {"period", tuning.period},      {"regimes", std::move(regimes)}};
 }
 
-std::string to_table(const Tuning& tuning) {
+std::string to_table(const Tuning& tuning, std::size_t width) {
   std::string text = fmt::format(
       "RMSE of position [m], with known associations, on {} runs for tuning and {} others for "
       "judging\n",
@@ -87,25 +82,32 @@ std::string to_table(const Tuning& tuning) {
   for (const TunedRegime& regime : tuning.regimes) {
     text += fmt::format("\n{}: acceleration {:.3g} m/s² per axis, tracking index {:.3g}\n",
                         regime.regime, regime.acceleration, regime.tracking_index);
+    std::vector<const JudgedGains*> ranking;
+    for (const JudgedGains& judged : regime.judged) ranking.push_back(&judged);
+    std::stable_sort(ranking.begin(), ranking.end(),
+                     [](const JudgedGains* a, const JudgedGains* b) { return a->rmse < b->rmse; });
     std::vector<std::vector<std::string>> lines;
-    for (const JudgedGains& judged : regime.judged) {
+    for (const JudgedGains* judged : ranking) {
+      const bool wins = judged == ranking.front();
       lines.push_back(
-          {printable(judged.origin, 20), judged.filter, judged.gains,
-           fmt::format("{:.4g}", judged.trained_rmse),
-           fmt::format("{:.4g}{}", judged.rmse, plus_minus(judged.ci95)),
-           fmt::format("{:+.3g}{}", judged.difference, plus_minus(judged.difference_ci95))});
+          {(wins ? "* " : "  ") + printable(judged->origin, 18), judged->filter, judged->gains,
+           fmt::format("{:.4g}", judged->trained_rmse),
+           fmt::format("{:.4g}{}", judged->rmse, plus_minus(judged->ci95)),
+           fmt::format("{:+.3g}{}", judged->difference, plus_minus(judged->difference_ci95))});
     }
     lines.push_back(
-        {"bound", "", "", "", regime.bound ? fmt::format("{:.4g}", *regime.bound) : "", ""});
-    text += text_table({{"origin", 20, false},
+        {"  bound", "", "", "", regime.bound ? fmt::format("{:.4g}", *regime.bound) : "", ""});
+    text += text_table({{"  gains from", 20, false},
                         {"filter", 14, false},
                         {"gains", 34, false},
                         {"tuned on", 10, true},
                         {"judged on", 18, true},
-                        {"worse by", 18, true}},
-                       lines);
+                        {"to tuned", 18, true}},
+                       lines, {.width = width, .repeated = 2});
   }
-  return text;
+  return text +
+         "\n* the least error in judging; to tuned: difference to the tuned gains; bound: the least\n"
+         "  that gains of fixed design can expect. ± half of a 95 % interval\n";
 }
 
 }  // namespace ghtrack

@@ -139,6 +139,7 @@ std::string to_table(const RunReport& report) {
   const ClearMotResult& clear = total.mot.clear;
   const GospaOptions gospa = report.options.gospa();
   return text_table(columns, rows) +
+         "predicted: by theory; floor: best Kalman filter; used/missed: detections it had/lacked\n" +
          fmt::format(
              "\nGOSPA {} m (c {:.4g} m, p {:.4g}, alpha {:.4g}): {:.3g} missed and {:.3g} false "
              "per "

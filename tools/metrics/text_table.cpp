@@ -1,6 +1,8 @@
 #include "tools/metrics/text_table.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 
 #include "scenes/schema/utf8.hpp"
 
@@ -25,6 +27,38 @@ void append_cell(std::string& line, const std::string& cell, std::size_t columns
   line += right ? padding + cell : cell + padding;
 }
 
+using Cells = std::vector<std::vector<std::string>>;
+
+/// Cuts the cells of the columns that name the rows, where these take more than their share.
+void shorten_names(Cells& cells, std::size_t columns, std::size_t most) {
+  constexpr std::size_t kLeast = 8;
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < columns; ++i) {
+    std::size_t widest = 0;
+    for (const auto& line : cells) widest = std::max(widest, width(line[i]));
+    total += widest + kGap.size();
+  }
+  if (total <= most) return;
+  const std::size_t share = std::max(kLeast, most / columns - kGap.size());
+  for (auto& line : cells) {
+    for (std::size_t i = 0; i < columns; ++i) line[i] = printable(line[i], share);
+  }
+}
+
+/// Some of the columns as lines.
+void append_block(std::string& text, const Cells& cells, const std::vector<TextColumn>& columns,
+                  const std::vector<std::size_t>& widths, const std::vector<std::size_t>& shown) {
+  for (const auto& line : cells) {
+    std::string row;
+    for (const std::size_t i : shown) {
+      if (i != shown.front()) row += kGap;
+      append_cell(row, line[i], widths[i], columns[i].right_aligned);
+    }
+    row.erase(row.find_last_not_of(' ') + 1);
+    text += row + '\n';
+  }
+}
+
 }  // namespace
 
 std::string printable(std::string_view text, std::size_t most) {
@@ -46,8 +80,8 @@ std::string printable(std::string_view text, std::size_t most) {
 }
 
 std::string text_table(const std::vector<TextColumn>& columns,
-                       const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::vector<std::string>> cells(1);
+                       const std::vector<std::vector<std::string>>& rows, const TableFit& fit) {
+  Cells cells(1);
   for (const TextColumn& column : columns) cells[0].push_back(printable(column.title, column.most));
   for (const std::vector<std::string>& row : rows) {
     auto& line = cells.emplace_back();
@@ -55,19 +89,25 @@ std::string text_table(const std::vector<TextColumn>& columns,
       line.push_back(printable(row.at(i), columns[i].most));
     }
   }
+  const std::size_t repeated = std::min(fit.repeated, columns.size());
+  shorten_names(cells, repeated, fit.width / 2);
   std::vector<std::size_t> widths(columns.size(), 0);
   for (const auto& line : cells) {
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], width(line[i]));
   }
   std::string text;
-  for (const auto& line : cells) {
-    std::string row;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (i > 0) row += kGap;
-      append_cell(row, line[i], widths[i], columns[i].right_aligned);
-    }
-    row.erase(row.find_last_not_of(' ') + 1);
-    text += row + '\n';
+  for (std::size_t next = repeated; next < columns.size() || text.empty();) {
+    std::vector<std::size_t> shown(repeated);
+    std::iota(shown.begin(), shown.end(), std::size_t{0});
+    std::size_t used = 0;
+    for (const std::size_t i : shown) used += widths[i] + kGap.size();
+    do {
+      if (next == columns.size()) break;
+      shown.push_back(next);
+      used += widths[next++] + kGap.size();
+    } while (next < columns.size() && used + widths[next] <= fit.width);
+    if (!text.empty()) text += '\n';
+    append_block(text, cells, columns, widths, shown);
   }
   return text;
 }

@@ -17,8 +17,15 @@ struct TextColumn {
 /// overrides and bytes that are not UTF-8 become "?".
 std::string printable(std::string_view text, std::size_t most);
 
-/// Rows under a heading, in columns as wide as their widest cell.
+/// How a table is fitted to a terminal.
+struct TableFit {
+  std::size_t width = 80;    // characters of a line
+  std::size_t repeated = 1;  // first columns, which name the rows
+};
+
+/// Rows under a heading, in columns as wide as their widest cell. What is wider than the terminal
+/// is set as several tables one below the other, each with the columns that name the rows.
 std::string text_table(const std::vector<TextColumn>& columns,
-                       const std::vector<std::vector<std::string>>& rows);
+                       const std::vector<std::vector<std::string>>& rows, const TableFit& fit = {});
 
 }  // namespace ghtrack

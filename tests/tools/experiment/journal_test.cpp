@@ -2,13 +2,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "tests/tools/experiment/sample_campaign.hpp"
 #include "tests/tools/record/scratch_folder.hpp"
+#include "tools/experiment/trial.hpp"
 #include "tools/record/errors.hpp"
 
 namespace ghtrack {
@@ -18,7 +22,15 @@ namespace fs = std::filesystem;
 using testing::campaign_of_scene;
 using testing::steady_scene;
 
-const std::vector<double> kScores = {1.5, -0.25, 1e300, std::numeric_limits<double>::quiet_NaN()};
+/// What a run of the campaigns here may yield.
+const std::vector<double> kScores = [] {
+  std::vector<double> scores(layout_of(steady_scene("{runs: 3}")).size(),
+                             std::numeric_limits<double>::quiet_NaN());
+  scores[0] = 1.5;
+  scores[1] = -0.25;
+  scores[2] = 1e300;
+  return scores;
+}();
 
 // Property: what was written is read back, and the file gets its name when it is complete.
 TEST(Journal, KeepsWhatItIsGiven) {
@@ -98,6 +110,43 @@ TEST(Journal, ReplacesAnOlderCampaign) {
     read_journal(file, campaign, results);
   }
   EXPECT_EQ(results.missing(), 2);
+}
+
+// Property: a record with a right check sum is still not taken for what it is not: of another
+// length, infinite, empty, or of a run that there is not.
+TEST(Journal, RefusesRecordsThatNoRunCanHaveGiven) {
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<double> nothing(kScores.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> infinite = kScores;
+  infinite[3] = infinity;
+  const std::vector<std::pair<std::vector<double>, int>> wrong = {
+      {{kScores.begin(), kScores.end() - 1}, 0}, {{1.0}, 0}, {infinite, 0}, {nothing, 0},
+      {kScores, 3}};
+  for (const auto& [scores, run] : wrong) {
+    const ScratchFolder scratch;
+    {
+      Journal journal(scratch.path(), {}, campaign, false);
+      journal.add(0, run, scores);
+      journal.complete();
+    }
+    Results results(campaign);
+    EXPECT_THROW(read_journal(journal_path(scratch.path(), {}), campaign, results), InputError);
+  }
+}
+
+// Property: no name leads a journal astray: a link in its place is neither followed nor replaced,
+// and what is no file of runs is refused without waiting for it.
+TEST(Journal, FollowsNoLinkAndWaitsForNoPipe) {
+  const ScratchFolder scratch;
+  const Campaign campaign = campaign_of_scene(steady_scene("{runs: 3}"));
+  const fs::path partial = scratch.path() / "shard-0-of-1.runs.partial";
+  fs::create_symlink(scratch.path() / "elsewhere", partial);
+  EXPECT_THROW(Journal(scratch.path(), {}, campaign, false), WriteError);
+  EXPECT_FALSE(fs::exists(scratch.path() / "elsewhere"));
+  ASSERT_EQ(::mkfifo((scratch.path() / "shard-1-of-2.runs").c_str(), 0600), 0);
+  Results results(campaign);
+  EXPECT_THROW(read_journal(scratch.path() / "shard-1-of-2.runs", campaign, results), InputError);
 }
 
 // Property: a flipped bit spoils its run and what follows, nothing before.

@@ -1,0 +1,48 @@
+// Fuzzing of --set KEY=VALUE: none may crash the reader, and what is accepted can be written and
+// read back.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/schema/reader.hpp"
+#include "scenes/schema/writer.hpp"
+
+namespace {
+
+constexpr std::string_view kScene = R"(
+name: small
+duration: 2
+world: {wind: {mean: [1, 0]}, ground: {height: 0}, walls: [{from: [5, 0], to: [5, 3]}]}
+targets:
+  - {name: fly, ball: {type: baseball, position: [0, 1], velocity: [20, 15]}}
+  - {name: tram, train: {track: [{straight: 200}], speed: 5}}
+  - {name: party, balloon: {type: latex-11-inch, position: [6, 10]}}
+sensors:
+  - {name: camera, rate: 20, noise: 0.6, clutter: 1, field_of_view: [[-14, -3], [116, 57]]}
+tracker: {filters: {ball: {ghk: {design: tracking-index, process_noise: 8}}, default: {gh: {g: 0.5, h: 0.1}}}}
+video: {size: [320, 180]}
+compare: {filters: {one: {gh: {g: 0.05, h: 0.001}}}}
+)";
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::vector<std::string> overrides = {
+      std::string(reinterpret_cast<const char*>(data), size)};
+  std::string written;
+  try {
+    written = ghtrack::write_scene(ghtrack::read_scene_text(kScene, "fuzz.yaml", overrides));
+  } catch (const ghtrack::SceneError& error) {
+    constexpr std::size_t kLongestMessage = 4000;
+    if (std::string_view(error.what()).size() > kLongestMessage) std::abort();
+    return 0;
+  }
+  if (ghtrack::write_scene(ghtrack::read_scene_text(written, "written.yaml")) != written) {
+    std::abort();
+  }
+  return 0;
+}
