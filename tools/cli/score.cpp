@@ -139,17 +139,17 @@ ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, 
 void tell_of_instants(const InstantCounts& counts, double truth_period, double track_period,
                       const Manners& manners) {
   if (manners.quiet) return;
-  const auto tell = [](std::int64_t count, const std::string& whose, const std::string& what) {
+  const auto tell_how_many = [](std::int64_t count, const std::string& whose, const std::string& what) {
     if (count > 0) tell("ghtrack: {} instants of the {} {}", count, whose, what);
   };
-  tell(counts.truth_unscored, "truth",
+  tell_how_many(counts.truth_unscored, "truth",
        fmt::format("are not scored: they lie between those of the tracks, which are {:.4g} s apart",
                    track_period));
-  tell(counts.tracks_unscored, "tracks",
+  tell_how_many(counts.tracks_unscored, "tracks",
        fmt::format("are not scored: they lie between those of the truth, which are {:.4g} s apart",
                    truth_period));
-  tell(counts.truth_alone, "truth", "have no tracks; they are scored as missed");
-  tell(counts.tracks_alone, "tracks", "have no truth; they are scored as false");
+  tell_how_many(counts.truth_alone, "truth", "have no tracks; they are scored as missed");
+  tell_how_many(counts.tracks_alone, "tracks", "have no truth; they are scored as false");
 }
 
 ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair, Extras& extras,

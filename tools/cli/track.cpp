@@ -118,7 +118,7 @@ class GeoTracks {
       if (track.status == TrackStatus::kTentative) continue;
       GeoTrack& own = by_id_[track.id];
       own.id = track.id;
-      const TrackPoint point{now.time, to_degrees(origin_, track.position)};
+      const GeographicPoint point{now.time, to_degrees(origin_, track.position)};
       if (!own.points.empty() && own.points.back().time == now.time) own.points.pop_back();
       own.points.push_back(point);
     }

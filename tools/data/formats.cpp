@@ -134,7 +134,7 @@ std::string as_geographic_file(const std::string& path, const std::vector<GeoTra
         "xmlns=\"http://www.topografix.com/GPX/1/1\">\n";
     for (const GeoTrack& track : tracks) {
       text += fmt::format("<trk><name>{}</name><trkseg>\n", track.id);
-      for (const TrackPoint& point : track.points) {
+      for (const GeographicPoint& point : track.points) {
         text += fmt::format("<trkpt lat=\"{}\" lon=\"{}\"><time>{}</time></trkpt>\n",
                             point.place.latitude, point.place.longitude,
                             format_date_time(point.time));
@@ -148,7 +148,7 @@ std::string as_geographic_file(const std::string& path, const std::vector<GeoTra
   for (const GeoTrack& track : tracks) {
     nlohmann::ordered_json places = nlohmann::ordered_json::array();
     nlohmann::ordered_json times = nlohmann::ordered_json::array();
-    for (const TrackPoint& point : track.points) {
+    for (const GeographicPoint& point : track.points) {
       places.push_back({point.place.longitude, point.place.latitude});
       times.push_back(point.time);
     }

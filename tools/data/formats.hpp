@@ -17,14 +17,14 @@ namespace ghtrack {
 std::optional<std::string> points_as_csv(const std::string& path);
 
 /// A point of a track, for files that hold track after track.
-struct TrackPoint {
+struct GeographicPoint {
   double time = 0.0;  // [s]
   GeoPoint place;
 };
 
 struct GeoTrack {
   std::int64_t id = 0;
-  std::vector<TrackPoint> points;
+  std::vector<GeographicPoint> points;
 };
 
 /// Whether tracks can be written under that name: .gpx or .geojson.

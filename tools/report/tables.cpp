@@ -52,7 +52,7 @@ Json value_cell(const ComparisonRow* row) {
   const std::string half =
       row->ci95 ? fmt::format("±{:.1g}", 0.5 * (row->ci95->high - row->ci95->low)) : "";
   return {{"text", number(row->mean)},       {"half", half},
-          {"verdict", css_of(row->significance)}, {"css", css_of(row->verdict)},
+          {"verdict", css_of(row->significance)}, {"css", css_of(row->significance)},
           {"sort", sort_key(row->mean)},     {"predicted", number(row->predicted)}};
 }
 
