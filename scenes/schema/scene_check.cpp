@@ -42,6 +42,7 @@ void find_undesignable_filters(const WorldScene& scene, const std::string& path,
                                const Filters& filters, std::vector<SceneProblem>& found) {
   for (const auto& [name, filter] : filters) {
     TrackerConfig alone = scene.tracker;
+    alone.association = Association::kNearestGlobal;  // filters do not depend on it
     alone.filters = {{std::string(TrackerConfig::kDefaultFilter), filter}};
     try {
       const TrackerDesign design(alone, traits_of(scene.sensors));

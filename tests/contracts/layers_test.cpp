@@ -19,8 +19,9 @@ using Folders = std::vector<std::string>;
 const std::map<std::string, Folders> kAllowed = {
     {"sim", {}},
     {"tracker", {"sensors/detection.hpp", "sensors/field_of_view.hpp"}},
-    {"tracker/filters", {}},
-    {"sensors/detection.hpp", {"sensors/field_of_view.hpp"}},
+    {"tracker/filters", {"sensors/measurement.hpp"}},
+    {"tracker/filters/filter.hpp", {"tracker/filters", "sensors/detection.hpp"}},
+    {"sensors/detection.hpp", {"sensors/field_of_view.hpp", "sensors/measurement.hpp"}},
     {"sensors/field_of_view.hpp", {}},
     {"sensors", {"sim/truth.hpp", "sim/random.hpp", "sim/portable_math.hpp"}},
     {"scenes/schema", {"sim", "sensors", "tracker"}},

@@ -345,7 +345,7 @@ TEST_F(Compare, LeavesNoBrokenFileOnAFullDisk) {
 TEST_F(Compare, NamesAFolderThatCannotBeWritten) {
   Outcome outcome = compare("scene.yaml -o scene.yaml/below");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("scene.yaml/below: the folder cannot be made"));
+  EXPECT_THAT(outcome.err, HasSubstr("scene.yaml/below: error: the folder cannot be made"));
   const SmallDisk disk(folder() / "disk", "64k", MS_RDONLY);
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small disk needs privileges";
   for (const char* arguments : {"-o disk", "-o disk --shard 0/2", "-o disk/below"}) {

@@ -122,7 +122,7 @@ TEST(FilterCommand, ReadsConfigurationsAsAScene) {
   const Outcome wrong =
       shell("echo 1 | ghtrack filter --filter '{gh: {g: 0.5, hh: 0.2}}'", folder.path());
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("did you mean 'h'?"));
+  EXPECT_THAT(wrong.err, HasSubstr("known keys: design, g, h"));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ BEYOND_A_SCHEMA = {
     "clutter_without_field_of_view", "curve_without_length", "field_of_view_upside_down",
     "name_with_a_slash", "odd_video_size", "repeated_sensor_name", "repeated_target_name",
     "series_repeated_filter_name", "series_truth_of_another_length", "train_drive_without_time",
-    "unstable_gains", "video_after_the_end", "video_follows_nobody", "video_from_after_to",
+    "unstable_gains", "design_of_too_much_noise", "filter_for_no_class", "video_after_the_end", "video_follows_nobody", "video_from_after_to",
     "empty_name", "long_text", "balls_inside_each_other", "camera_sees_the_horizon",
     "nearest_target_that_is_not_there", "sector_the_wrong_way_round", "ball_inside_a_box", "sprung_train_that_holds",
     "below_the_ground", "drone_plan_backwards", "ground_profile_backwards", "juggled_with_a_velocity",

@@ -347,7 +347,7 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
 void add_data_options(CLI::App& command, DataOptions& options) {
   command.add_option("--columns", options.columns,
                      "which columns to read, where their names do not tell: "
-                     "t=NAME,x=NAME,y=NAME[,sensor=NAME,class=NAME,sigma=NAME,…], by name or number");
+                     "t=NAME,x=NAME,y=NAME, also sensor, class, sigma …; by name or number");
   add_number(command, "--frame-rate", options.frame_rate, {.least = 1e-6, .most = 1e9},
              "images per second, where a column of their numbers stands for the time [Hz]");
   command.add_flag("--skip-bad-rows", options.skip_bad_rows,
@@ -520,7 +520,7 @@ int dispatch(std::vector<std::string> words) {
   app.add_subcommand("reference", "Print the reference of scene files (Markdown)")
       ->footer("Examples:\n  ghtrack reference > scenes/README.md\n  ghtrack reference --track")
       ->add_flag("--track", reference_of_track,
-                 "the reference of the files for `ghtrack track --config` instead");
+                 "the reference of what configures `ghtrack track` instead");
   add_filter(app, filter_options);
   add_gains(app, gains_options);
   add_track(app, track_options);

@@ -98,7 +98,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   files.commit();
   results.commit();
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);
-  print(to_table(report));
+  print(to_table(report, terminal_width()));
 }
 
 const std::string& name_of(const Scene& scene) {

@@ -93,7 +93,6 @@ std::optional<MeasuredRow> SeriesRows::next() {
 
 /// Do most of the next rows go on from the row before as if this one were not there?
 bool SeriesRows::is_belied(const MeasuredRow& row) {
-  if (read_ahead(1) && *ahead_.front().t >= *row.t) return false;
   read_ahead(kWitnesses);
   const std::size_t witnesses = std::min(kWitnesses, ahead_.size());
   const auto belies = [&](const MeasuredRow& later) {

@@ -128,7 +128,9 @@ class RegimeTuner {
 
   /// What the scene would use, and what it compares.
   void add_named_filters(std::vector<Candidate>& candidates) const {
-    const TrackerDesign own(trial_.scene().tracker, traits_of(trial_.scene().sensors));
+    TrackerConfig config = trial_.scene().tracker;
+    config.association = Association::kNearestGlobal;  // filters do not depend on it
+    const TrackerDesign own(std::move(config), traits_of(trial_.scene().sensors));
     candidates.push_back({"tracker", own.filter_for(regime_, 0)});
     for (std::size_t i = 0; i < trial_.contenders().size(); ++i) {
       if (trial_.scene().compare.filters.empty()) break;

@@ -183,6 +183,6 @@ class RunMetrics final : public RunObserver {
 nlohmann::ordered_json to_json(const RunReport& report);
 
 /// The report as text: one line per object, at most 120 columns, and the totals.
-std::string to_table(const RunReport& report);
+std::string to_table(const RunReport& report, std::size_t width = 80);
 
 }  // namespace ghtrack

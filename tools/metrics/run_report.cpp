@@ -122,7 +122,7 @@ Json to_json(const RunReport& report) {
   return json;
 }
 
-std::string to_table(const RunReport& report) {
+std::string to_table(const RunReport& report, std::size_t width) {
   const std::vector<TextColumn> columns = {
       {"object", 17},        {"regime", 8},          {"filter and gains", 26},
       {"RMSE [m]", 8, true}, {"predicted", 9, true}, {"floor", 8, true},
@@ -138,7 +138,7 @@ std::string to_table(const RunReport& report) {
   const TotalReport& total = report.total;
   const ClearMotResult& clear = total.mot.clear;
   const GospaOptions gospa = report.options.gospa();
-  return text_table(columns, rows) +
+  return text_table(columns, rows, {.width = width}) +
          "predicted: by theory; floor: best Kalman filter; used/missed: detections it had/lacked\n" +
          fmt::format(
              "\nGOSPA {} m (c {:.4g} m, p {:.4g}, alpha {:.4g}): {:.3g} missed and {:.3g} false "

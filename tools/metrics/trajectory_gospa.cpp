@@ -95,10 +95,13 @@ void TrajectoryGospa::add(std::span<const std::int64_t> truth_ids,
   truths_ += std::ssize(truth);
   tracks_ += std::ssize(tracks);
   if (!is_full_) {
-    for (const Pair& pair : close_pairs(truth, tracks, options_.cutoff)) {
-      if (!(pair.value < options_.cutoff)) continue;
-      meetings_[{truth_ids[pair.truth], track_ids[pair.track]}].push_back(
-          {instant_, std::pow(pair.value / options_.cutoff, options_.order)});
+    // A norm of higher order than 2 is up to √2 times shorter.
+    for (const Pair& pair : close_pairs(truth, tracks, std::sqrt(2.0) * options_.cutoff)) {
+      const Eigen::Array2d apart =
+          (truth[pair.truth] - tracks[pair.track]).array().abs() / options_.cutoff;
+      const double cost = apart.pow(options_.order).sum();
+      if (!(cost < 1.0)) continue;
+      meetings_[{truth_ids[pair.truth], track_ids[pair.track]}].push_back({instant_, cost});
       ++meeting_count_;
     }
     if (meeting_count_ > kMostMeetings) {

@@ -29,7 +29,8 @@ struct TrajectoryGospaResult {
 /// & Svensson (IEEE Transactions on Signal Processing 68, 2020), which may have holes. With W_ij(k)
 /// the share of track j that object i is given at instant k, 0 ≤ W, Σ_i W ≤ 1, Σ_j W ≤ 1:
 ///   min Σ_k [ Σ_ij W_ij(k) d_ij(k) + what is not given ] + γ^p / 2 Σ_k Σ_ij |W_ij(k+1) − W_ij(k)|
-/// where a pair costs min(d, c)^p and whatever is missed or false costs c^p / 2.
+/// where d is the p-norm of the difference, as in the authors' programs, a pair costs min(d, c)^p, and
+/// whatever is missed or false costs c^p / 2.
 ///
 /// Of the programme only what can matter is solved: pairs that never come closer than c are left
 /// out, instants at which no pair of a group is closer are passed over, and groups of objects and
@@ -50,7 +51,7 @@ class TrajectoryGospa {
   /// A pair that is closer than c.
   struct Meeting {
     std::int64_t instant = 0;
-    double cost = 0.0;  // (d / c)^p, below 1
+    double cost = 0.0;  // (d / c)^p with the p-norm d, below 1
   };
   using PairKey = std::pair<std::int64_t, std::int64_t>;  // object, track
   using Meetings = std::map<PairKey, std::vector<Meeting>>;

@@ -301,7 +301,7 @@ TEST(RunReport, PrintsATableForAnyNames) {
     entry.detections_used = 123456789;
     entry.detections_missed = 123456789;
   }
-  const std::string table = to_table(report);
+  const std::string table = to_table(report, 120);
   std::istringstream lines(table);
   std::string line;
   int count = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "tests/tools/record/scratch_folder.hpp"
@@ -72,9 +73,14 @@ TEST(Figure, IsWrittenInThreeFormatsWithTheSameBytes) {
       Style style = style_named(size).value();
       style.dark = std::string(size) == "slide";
       write_figure(path, waves(), style);
+      // Cairo numbers the clip paths of SVG through the whole life of a process.
+      const auto content = [&] {
+        return std::regex_replace(bytes_of(path), std::regex("(clip|glyph|surface)[0-9]+(-[0-9]+)?"), "$1");
+      };
       const std::string first = bytes_of(path);
+      const std::string numberless = content();
       write_figure(path, waves(), style);
-      EXPECT_EQ(bytes_of(path), first);
+      EXPECT_EQ(content(), numberless);
       const std::string ending = path.extension();
       EXPECT_THAT(first, StartsWith(ending == ".svg"   ? "<?xml"
                                     : ending == ".pdf" ? "%PDF"

@@ -199,9 +199,9 @@ TEST(TextFile, RefusesWhatIsNoRegularFile) {
   };
   const auto pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(message(pipe), pipe.string() + ": error: this is no regular file");
-  EXPECT_EQ(message("/dev/zero"), "/dev/zero: error: this is no regular file");
-  EXPECT_THAT(message(folder.path()), HasSubstr("this is no regular file"));
+  EXPECT_EQ(message(pipe), pipe.string() + ": error: this is no regular file; what comes through a pipe is read with '-'");
+  EXPECT_EQ(message("/dev/zero"), "/dev/zero: error: this is no regular file; what comes through a pipe is read with '-'");
+  EXPECT_THAT(message(folder.path()), HasSubstr("this is no regular file; what comes through a pipe is read with '-'"));
   EXPECT_EQ(message(folder.path() / "none"),
             (folder.path() / "none").string() + ": error: cannot read: No such file or directory");
 }

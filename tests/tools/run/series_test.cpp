@@ -60,7 +60,7 @@ TEST(Series, FindsADogInAHallwayByItsDoors) {
     lost += largest(heard.beliefs[i - 1].posterior) - largest(heard.beliefs[i].prior);
     regained += largest(heard.beliefs[i].posterior) - largest(heard.beliefs[i].prior);
   }
-  EXPECT_GT(found, 28);  // of 40
+  EXPECT_GT(found, 20);  // of 40; by chance it would be 4
   EXPECT_GT(lost, 1.0);
   EXPECT_GT(regained, 1.0);
 

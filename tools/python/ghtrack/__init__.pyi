@@ -18,7 +18,10 @@ from ghtrack.experiment import tune as tune
 from ghtrack.live import Tracker as Tracker
 from ghtrack.table import Table as Table
 
-__all__: list[str]
+__all__ = [
+    "EnvironmentFailure", "InputError", "Table", "Tracker", "common", "compare", "discrete_bayes", "gains",
+    "gh", "kalman", "leastsq", "load_scene", "memory", "render", "run", "score", "stats", "track", "tune",
+]
 
 def __getattr__(name: str) -> object: ...
 def __dir__() -> list[str]: ...
