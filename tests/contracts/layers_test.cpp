@@ -30,6 +30,7 @@ const std::map<std::string, Folders> kAllowed = {
     {"tools/metrics",
      {"tools/record", "tools/data", "sim/truth.hpp", "sensors", "tracker", "scenes/schema/utf8.hpp"}},
     {"tools/run", {"tools/record", "scenes", "sim", "sensors", "tracker"}},
+    {"tools/python", {"tools/run", "scenes/schema", "tracker"}},
     {"tools/modules", {}},
     {"tools/ranks", {"tools/modules"}},
     {"tools/render",

@@ -3,9 +3,11 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 
 class InputError(ValueError):
@@ -40,12 +42,18 @@ def call(*arguments, stdin=None):
     command = [executable(), *map(str, arguments)]
     # Arguments are passed as they are: no shell takes part.
     done = subprocess.run(command, input=stdin, capture_output=True, text=True, check=False)
+    said = _without_scratch(done.stderr)
     if done.returncode == 0:
-        if done.stderr:
-            print(done.stderr, end="", file=sys.stderr)
+        if said:
+            print(said, end="", file=sys.stderr)
         return done.stdout
-    words = done.stderr.strip() or f"ghtrack ended with status {done.returncode}"
+    words = said.strip() or f"ghtrack ended with status {done.returncode}"
     raise (InputError if done.returncode == 2 else EnvironmentFailure)(words)
+
+
+def _without_scratch(text):
+    """The text without the folders in which this module keeps files for the program for a while."""
+    return re.sub(re.escape(tempfile.gettempdir()) + r"/ghtrack-[^/\s]*/", "", text)
 
 
 def option_list(options):
