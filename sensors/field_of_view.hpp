@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -53,6 +55,23 @@ inline bool contains(const FieldOfView& view, const Eigen::Vector2d& position) {
           return shape.contains(position);
       },
       view);
+}
+
+/// Area [m²]; infinite for one that sees everything.
+inline double area(const FieldOfView& view) {
+  struct Area {
+    double operator()(const Everywhere&) const { return std::numeric_limits<double>::infinity(); }
+    double operator()(const Eigen::AlignedBox2d& box) const { return box.volume(); }
+    double operator()(const Sector& sector) const {
+      return sector.half_width * sector.max_range * sector.max_range;
+    }
+    double operator()(const Quadrilateral& shape) const {
+      const Eigen::Vector2d a = shape.corners[2] - shape.corners[0];
+      const Eigen::Vector2d b = shape.corners[3] - shape.corners[1];
+      return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
+    }
+  };
+  return std::visit(Area{}, view);
 }
 
 /// The rectangle between two corners as a scene writes them, lower left first [m]; everywhere

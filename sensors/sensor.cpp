@@ -127,7 +127,11 @@ void add_clutter(const SensorConfig& sensor, std::uint64_t step, const Setting& 
 SensorTraits traits_of(const SensorConfig& sensor) {
   const double sigma =
       std::visit([](const auto& model) { return model.typical_sigma(); }, sensor.model);
-  return {.period = 1.0 / sensor.rate, .sigma = sigma, .field_of_view = sensor.view()};
+  return {.period = 1.0 / sensor.rate,
+          .sigma = sigma,
+          .field_of_view = sensor.view(),
+          .detection_probability = sensor.detection_probability,
+          .clutter = sensor.clutter};
 }
 
 std::vector<SensorTraits> traits_of(const std::vector<SensorConfig>& sensors) {

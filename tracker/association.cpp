@@ -9,6 +9,10 @@ namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
+/// A search among that many columns is given up: its track goes without a detection. Only crowds
+/// that no sensor could resolve come near.
+constexpr std::size_t kMostSettled = 1000;
+
 /// State of the successive shortest path method. Column j < detections is a detection, column
 /// detections + i is the private miss column of track i.
 class ShortestPaths {
@@ -52,7 +56,7 @@ class ShortestPaths {
     relax_row(track, 0.0);
     int free_column = kMissed;
     double shortest = 0.0;
-    while (free_column == kMissed) {
+    while (free_column == kMissed && settled_.size() < kMostSettled) {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
       const Entry nearest = heap_.back();
       heap_.pop_back();
@@ -66,7 +70,11 @@ class ShortestPaths {
         relax_row(owner_[nearest.column], nearest.distance);
       }
     }
-    for (const int column : settled_) price_[column] += distance_[column] - shortest;
+    if (free_column == kMissed) {
+      take_if_free(track, detections_ + track);
+    } else {
+      for (const int column : settled_) price_[column] += distance_[column] - shortest;
+    }
     for (int column = free_column; column != kMissed;) {
       const int row = parent_[column];
       const int previous = row == track ? kMissed : assigned_column_[row];

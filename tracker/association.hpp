@@ -50,7 +50,8 @@ struct Pairing {
 /// Sparse successive shortest augmenting paths with node potentials (Jonker & Volgenant 1987; the
 /// private "miss" column of every track makes the problem always feasible). Ties are broken by
 /// position in the table, so equal input gives equal output. Cost grows with the number of
-/// candidates, not with tracks × detections.
+/// candidates, not with tracks × detections; a track for which more than 1000 others would have to
+/// be moved goes without a detection.
 /// @param detections  number of detections in the scan
 /// @return the detection of each track, or kMissed
 std::vector<int> assign_globally(const CandidateTable& table, int detections, double miss_cost);

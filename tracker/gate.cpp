@@ -14,22 +14,8 @@ bool is_usable(const Detection& detection) {
 
 namespace {
 
-/// rᵀ adj(S) r and det S, whose quotient is the squared Mahalanobis distance.
-struct Quotient {
-  double numerator;
-  double determinant;
-
-  Quotient(const Prediction& prediction, const Eigen::Vector2d& position,
-           const Eigen::Matrix2d& covariance) {
-    const Eigen::Vector2d residual = position - prediction.position;
-    const Eigen::Matrix2d s = prediction.covariance + covariance;
-    determinant = s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0);
-    numerator = s(1, 1) * residual.x() * residual.x() -
-                (s(0, 1) + s(1, 0)) * residual.x() * residual.y() +
-                s(0, 0) * residual.y() * residual.y();
-  }
-  double distance() const { return std::sqrt(numerator / determinant); }
-};
+/// So many members about a gate are not looked at one by one.
+constexpr std::size_t kCrowd = 256;
 
 /// What lies outside belongs to the outermost cells; what is not a number, as the place of an
 /// infinite extent, to the first.
@@ -41,7 +27,8 @@ int cell_at(double place, int cells) {
 }  // namespace
 
 double mahalanobis_distance(const Prediction& prediction, const Detection& detection) {
-  return Quotient(prediction, detection.position, detection.covariance).distance();
+  const InnovationQuotient quotient(prediction, detection.position, detection.covariance);
+  return std::sqrt(quotient.squared_distance());
 }
 
 DetectionGrid::DetectionGrid(std::span<const Detection> detections) {
@@ -100,27 +87,46 @@ int DetectionGrid::row_of(double y) const {
   return cell_at((y - corner_.y()) * cells_per_metre_.y(), rows_);
 }
 
-void DetectionGrid::append_row(const Prediction& prediction, double gate,
-                               CandidateTable& table) const {
-  if (!members_.empty() && prediction.position.allFinite()) {
-    // The ellipse rᵀ S⁻¹ r ≤ gate² reaches gate √S_xx along x, gate √S_yy along y.
-    const Eigen::Vector2d reach =
-        gate * (prediction.covariance.diagonal() + largest_variance_).cwiseSqrt();
-    const Eigen::Vector2d low = prediction.position - reach;
-    const Eigen::Vector2d high = prediction.position + reach;
-    const int first_column = column_of(low.x());
-    const int last_column = column_of(high.x());
-    const int last_row = row_of(high.y());
-    const double surely_outside = 1.0001 * gate * gate;  // spares a division and a root
-    for (int row = row_of(low.y()); row <= last_row; ++row) {
-      const int end = cell_start_[row * columns_ + last_column + 1];
-      for (int i = cell_start_[row * columns_ + first_column]; i < end; ++i) {
-        const Quotient quotient(prediction, members_[i].position, members_[i].covariance);
-        if (quotient.numerator > surely_outside * quotient.determinant) continue;
-        const double distance = quotient.distance();
-        if (distance <= gate) table.candidates.push_back({i, distance});
-      }
+void DetectionGrid::find_in_gate(const Prediction& prediction, double gate,
+                                 std::vector<Gated>& found) {
+  found.clear();
+  if (members_.empty() || !prediction.position.allFinite()) return;
+  // The ellipse rᵀ S⁻¹ r ≤ gate² reaches gate √S_xx along x, gate √S_yy along y.
+  const Eigen::Vector2d reach =
+      gate * (prediction.covariance.diagonal() + largest_variance_).cwiseSqrt();
+  const Eigen::Vector2d low = prediction.position - reach;
+  const Eigen::Vector2d high = prediction.position + reach;
+  const int first_column = column_of(low.x());
+  const int last_column = column_of(high.x());
+  const int last_row = row_of(high.y());
+  std::size_t near = 0;
+  for (int row = row_of(low.y()); row <= last_row; ++row) {
+    near += static_cast<std::size_t>(cell_start_[row * columns_ + last_column + 1] -
+                                     cell_start_[row * columns_ + first_column]);
+  }
+  if (near > kCrowd) {
+    if (!crowd_) crowd_.emplace(members_);
+    crowd_->find_nearest(members_, prediction, gate, kMostInGate, found);
+    return;
+  }
+  const double surely_outside = 1.0001 * gate * gate;  // spares a division and a root
+  for (int row = row_of(low.y()); row <= last_row; ++row) {
+    const int end = cell_start_[row * columns_ + last_column + 1];
+    for (int i = cell_start_[row * columns_ + first_column]; i < end; ++i) {
+      const InnovationQuotient quotient(prediction, members_[i].position, members_[i].covariance);
+      if (quotient.numerator > surely_outside * quotient.determinant) continue;
+      const double squared_distance = quotient.squared_distance();
+      if (!(std::sqrt(squared_distance) <= gate)) continue;
+      found.push_back({i, squared_distance, quotient.determinant});
     }
+  }
+}
+
+void DetectionGrid::append_row(const Prediction& prediction, double gate, CandidateTable& table) {
+  std::vector<Gated> found;
+  find_in_gate(prediction, gate, found);
+  for (const Gated& gated : found) {
+    table.candidates.push_back({gated.member, std::sqrt(gated.squared_distance)});
   }
   table.close_row();
 }

@@ -1,19 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sensors/detection.hpp"
 #include "tracker/association.hpp"
+#include "tracker/nearest_tree.hpp"
+#include "tracker/prediction.hpp"
 
 namespace ghtrack {
-
-/// Where a track expects its next detection, without the error of the sensor. @ingroup association
-struct Prediction {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();    // [m]
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the predicted position [m²]
-};
 
 /// Are the position and its covariance finite, and the covariance positive definite?
 bool is_usable(const Detection& detection);
@@ -26,20 +23,22 @@ double mahalanobis_distance(const Prediction& prediction, const Detection& detec
 /// without looking at all of them.
 class DetectionGrid {
  public:
-  /// What a tracker needs of a detection, side by side in memory with its neighbours.
-  struct Member {
-    Eigen::Vector2d position;
-    Eigen::Matrix2d covariance;
-    int detection;  // index in the scan
-  };
+  using Member = PlacedDetection;
+
+  /// A track among more detections than this chooses among the nearest: what lies as close as that
+  /// no sensor tells apart. It bounds the work and the memory of a scan.
+  static constexpr std::size_t kMostInGate = 32;
 
   explicit DetectionGrid(std::span<const Detection> detections);
 
   const std::vector<Member>& members() const { return members_; }
 
+  /// The members in a track's gate, in their order; of a crowd the kMostInGate nearest.
+  void find_in_gate(const Prediction& prediction, double gate, std::vector<Gated>& found);
+
   /// Appends the row of a track: every member whose Mahalanobis distance from the prediction is at
   /// most `gate`, in the order of the members. The distance is the cost.
-  void append_row(const Prediction& prediction, double gate, CandidateTable& table) const;
+  void append_row(const Prediction& prediction, double gate, CandidateTable& table);
 
  private:
   int column_of(double x) const;
@@ -50,8 +49,9 @@ class DetectionGrid {
   Eigen::Vector2d largest_variance_ = Eigen::Vector2d::Zero();  // of any member, per axis
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<int> cell_start_;  // of each cell, in members_
-  std::vector<Member> members_;  // cell by cell
+  std::vector<int> cell_start_;       // of each cell, in members_
+  std::vector<Member> members_;       // cell by cell
+  std::optional<NearestTree> crowd_;  // of all members, once a gate has met a crowd
 };
 
 }  // namespace ghtrack

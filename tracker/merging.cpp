@@ -15,11 +15,9 @@ bool coincide(const Track& a, const Track& b, double distance) {
 
 /// Where a track with this id stands; tracks.size() if there is none.
 std::size_t index_of(const std::vector<Track>& tracks, int id) {
-  const auto found =
-      std::lower_bound(tracks.begin(), tracks.end(), id,
-                       [](const Track& track, int sought) { return track.id < sought; });
-  const bool is_there = found != tracks.end() && found->id == id;
-  return is_there ? static_cast<std::size_t>(found - tracks.begin()) : tracks.size();
+  const auto found = std::find_if(tracks.begin(), tracks.end(),
+                                  [id](const Track& track) { return track.id == id; });
+  return static_cast<std::size_t>(found - tracks.begin());
 }
 
 /// Forgets the rival of a track when they need not share any more.

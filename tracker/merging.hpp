@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "tracker/association.hpp"
-#include "tracker/tracker.hpp"
+#include "tracker/track_state.hpp"
+#include "tracker/tracker_config.hpp"
 
 namespace ghtrack {
 

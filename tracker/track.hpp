@@ -33,16 +33,19 @@ struct DesignedStep {
 
 /// What the tracker says of one target after a scan. World frame, SI units.
 struct TrackEstimate {
-  int id = 0;  // counts from 1 in the order of birth; never used twice
+  int id = 0;  // counts from 1 in the order of birth, or where existence is weighed of
+               // confirmation, until which it is negative; never used twice
   TrackStatus status = TrackStatus::kTentative;
-  std::string filter;  // name of the filter that leads, such as "gh"
-  std::string model;   // of several filters side by side, the leading one's, such as "ball"
-  std::string label;   // class reported by the detections; empty if none
+  std::optional<double> existence;  // probability that there is a target; absent: it is not weighed
+  std::string filter;               // name of the filter that leads, such as "gh"
+  std::string model;  // of several filters side by side, the leading one's, such as "ball"
+  std::string label;  // class reported by the detections; empty if none
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();
   Eigen::Vector2d prior_position = Eigen::Vector2d::Zero();  // before this scan's detection
   std::optional<Eigen::Vector2d> residual;                   // absent when no detection was used
+  std::optional<double> nis;                                 // normalised innovation squared of it
   std::optional<std::size_t> detection;                      // index in the scan, when one was used
   Eigen::Vector2d sigma = Eigen::Vector2d::Zero();           // predicted 1-sigma position error [m]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // predicted, of the position's error [m²]
@@ -60,6 +63,7 @@ struct TrackEstimate {
 struct TrackSnapshot {
   double time = 0.0;  // [s]
   int sensor = 0;
+  bool weighs_existence = false;  // or counts hits and misses
   std::vector<TrackEstimate> tracks;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,20 +13,33 @@
 
 namespace ghtrack {
 
-/// Which detection belongs to which track? One detection for one track in each of them. Joint
-/// probabilistic data association is left out: its exact form enumerates the joint events, whose
-/// number explodes where tracks crowd (times ten with each track more), and that is where it would
-/// be wanted.
+/// Which detection belongs to which track? The exact answer enumerates the joint events, whose
+/// number explodes where tracks crowd; these look at the likeliest one, at the marginals, or at the
+/// likeliest few over several scans.
 enum class Association {
-  kNearestGlobal,  // the assignment with the least total distance
+  kNearestGlobal,  // the likeliest assignment as a whole; with counts the least total distance
   kNearestGreedy,  // the nearest pair first
+  kProbabilistic,  // every detection in the gate, weighed by its marginal probability
+  kMultiScan,      // several hypotheses of the past are kept until later scans tell
   kKnown,          // told by the simulation, as in the textbook's experiments
 };
 
-constexpr std::array<std::pair<std::string_view, Association>, 3> enum_names(Association) {
+constexpr std::array<std::pair<std::string_view, Association>, 5> enum_names(Association) {
   return {{{"nearest-global", Association::kNearestGlobal},
            {"nearest-greedy", Association::kNearestGreedy},
+           {"probabilistic", Association::kProbabilistic},
+           {"multi-scan", Association::kMultiScan},
            {"known", Association::kKnown}}};
+}
+
+/// When does a track count as real, and when is it given up?
+enum class LifeCycle {
+  kExistence,  // by the probability that its target exists
+  kCounts,     // by hits and misses among its last scans
+};
+
+constexpr std::array<std::pair<std::string_view, LifeCycle>, 2> enum_names(LifeCycle) {
+  return {{{"existence", LifeCycle::kExistence}, {"counts", LifeCycle::kCounts}}};
 }
 
 /// What becomes of a scan that arrives after a later one?
@@ -99,15 +113,55 @@ struct MergeRule {
   }
 };
 
+/// What is assumed of targets that come and go, and how sure the tracker must be of one.
+/// Probabilities of existence as in Musicki & Evans 2004 and Williams 2015.
+struct ExistenceConfig {
+  double confirm = 0.5;
+  double drop = 2e-4;
+  std::optional<double> lifetime;  // mean time that a target stays [s]
+  double births = 0.001;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("confirm", &ExistenceConfig::confirm,
+            {.unit = "1",
+             .meaning = "a track is said to be real above this probability of existence",
+             .above = 0.0,
+             .below = 1.0});
+    v.field("drop", &ExistenceConfig::drop,
+            {.unit = "1",
+             .meaning = "a track is given up below this probability",
+             .above = 0.0,
+             .below = 1.0});
+    v.field("lifetime", &ExistenceConfig::lifetime,
+            {.unit = "s",
+             .meaning = "mean time that a target stays; without it that of 200 scans",
+             .above = 0.0,
+             .maximum = 1e12});
+    v.field("births", &ExistenceConfig::births,
+            {.unit = "1",
+             .meaning = "targets that appear for each false detection",
+             .above = 0.0,
+             .maximum = 1e3});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (drop >= confirm) report("drop", "must be below 'confirm'");
+  }
+};
+
 struct TrackerConfig {
   static constexpr std::string_view about = "turns detections into tracks";
   static constexpr std::string_view kDefaultFilter = "default";
 
   Association association = Association::kNearestGlobal;
   double gate = 3.5;  // radius in sigmas of the innovation (Mahalanobis distance)
-  HitRule confirm;
-  MissRule drop_tentative{.misses = 2, .scans = 2};
-  MissRule drop_confirmed{.misses = 5, .scans = 5};
+  std::optional<LifeCycle> life_cycle;
+  ExistenceConfig existence;
+  std::optional<HitRule> confirm;
+  std::optional<MissRule> drop_tentative;
+  std::optional<MissRule> drop_confirmed;
   int drop_unseen = 10;  // scans without a detection, in view or not
   LateScans late_scans = LateScans::kRefuse;
   double late_window = 2.0;  // how late a scan may be and still be replayed [s]
@@ -124,12 +178,20 @@ struct TrackerConfig {
                         "the innovation is not for this track",
              .above = 0.0,
              .maximum = 100.0});
-    v.field("confirm", &TrackerConfig::confirm, {.meaning = "when a track counts as real"});
+    v.field("life_cycle", &TrackerConfig::life_cycle,
+            {.meaning = "what confirms and ends tracks; `existence` unless one of the rules of "
+                        "`counts` is given: confirm, drop_tentative or drop_confirmed"});
+    v.field("existence", &TrackerConfig::existence,
+            {.meaning = "how tracks are confirmed and ended by their probability of existence"});
+    v.field("confirm", &TrackerConfig::confirm,
+            {.meaning = "when a track counts as real, by counts; by default 3 hits in 5 scans"});
     v.field("drop_tentative", &TrackerConfig::drop_tentative,
-            {.meaning = "when a track that is not confirmed yet is given up"});
-    v.field("drop_confirmed", &TrackerConfig::drop_confirmed,
-            {.meaning = "when a confirmed track is given up; a miss outside the sensor's field of "
-                        "view does not count"});
+            {.meaning = "when a track that is not confirmed yet is given up, by counts; by default "
+                        "after 2 misses in 2 scans"});
+    v.field(
+        "drop_confirmed", &TrackerConfig::drop_confirmed,
+        {.meaning = "when a confirmed track is given up, by counts; a miss outside the sensor's "
+                    "field of view does not count; by default after 5 misses in 5 scans"});
     v.field("drop_unseen", &TrackerConfig::drop_unseen,
             {.meaning = "a track without a detection in this many scans ends, in view or not",
              .minimum = 1,
@@ -148,6 +210,26 @@ struct TrackerConfig {
                         "detections without one; if it is missing, all filters run side by side "
                         "on those and the innovations decide which one leads"});
   }
+
+  template <class Report>
+  void check(Report&& report) const {
+    const bool weighs =
+        association == Association::kProbabilistic || association == Association::kMultiScan;
+    if (weighs && lives_by() == LifeCycle::kCounts) {
+      report("association", "this one weighs evidence: it needs life_cycle: existence");
+    }
+  }
+
+  /// What is given, or what the given rules mean.
+  LifeCycle lives_by() const {
+    const bool has_rule = confirm || drop_tentative || drop_confirmed;
+    return life_cycle.value_or(has_rule ? LifeCycle::kCounts : LifeCycle::kExistence);
+  }
+  HitRule confirm_rule() const { return confirm.value_or(HitRule{}); }
+  MissRule drop_tentative_rule() const {
+    return drop_tentative.value_or(MissRule{.misses = 2, .scans = 2});
+  }
+  MissRule drop_confirmed_rule() const { return drop_confirmed.value_or(MissRule{}); }
 };
 
 }  // namespace ghtrack

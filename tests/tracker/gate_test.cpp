@@ -44,7 +44,7 @@ TEST(Gate, GridFindsTheSameCandidatesAsLookingAtEverything) {
   std::mt19937 random(1);
   for (const int count : {0, 1, 2, 5, 50, 700}) {
     const auto detections = scattered(count, 100.0, random);
-    const DetectionGrid grid(detections);
+    DetectionGrid grid(detections);
     for (const Detection& track : scattered(100, 130.0, random)) {
       const Prediction prediction{.position = track.position, .covariance = 4.0 * track.covariance};
       CandidateTable table;

@@ -14,6 +14,7 @@ constexpr double kSigma = 0.5;
 
 TrackerDesign design(int scans) {
   TrackerConfig config;
+  config.life_cycle = LifeCycle::kCounts;
   config.merge.scans = scans;
   KalmanCvConfig filter;
   filter.model = process::PiecewiseConstant{.process_noise = 1.0};

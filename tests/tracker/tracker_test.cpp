@@ -16,7 +16,9 @@ using Eigen::Vector2d;
 constexpr double kSigma = 0.5;
 constexpr double kPeriod = 0.1;
 
+/// A tracker that counts hits and misses.
 TrackerDesign design(TrackerConfig config = {}, SensorTraits sensor = {}) {
+  config.life_cycle = LifeCycle::kCounts;
   sensor.period = kPeriod;
   sensor.sigma = kSigma;
   return {std::move(config), {sensor}};

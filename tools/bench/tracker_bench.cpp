@@ -28,9 +28,9 @@ constexpr double kTargetsPerArea = 2e-4;  // as in set A with 200 targets [1/m²
 TrackerDesign design(const FilterConfig& filter) {
   TrackerConfig config;
   config.gate = 3.0;
-  config.confirm = {.hits = 3, .scans = 64};
-  config.drop_tentative = {.misses = 2, .scans = 2};
-  config.drop_confirmed = {.misses = 4, .scans = 4};
+  config.confirm = HitRule{.hits = 3, .scans = 64};
+  config.drop_tentative = MissRule{.misses = 2, .scans = 2};
+  config.drop_confirmed = MissRule{.misses = 4, .scans = 4};
   config.filters["default"] = filter;
   return {config, {{.period = 1.0, .sigma = kSigma, .field_of_view = {}}}};
 }

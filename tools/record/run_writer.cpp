@@ -6,13 +6,19 @@
 namespace ghtrack {
 
 TrackWriter::TrackWriter(std::filesystem::path path, TrackColumns more)
-    : file_(std::move(path)), more_(std::move(more)) {
+    : file_(std::move(path)), more_(std::move(more)) {}
+
+void TrackWriter::write_header(bool with_existence) {
+  if (has_header_) return;
+  has_header_ = true;
   file_.write("t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y");
+  if (with_existence) file_.write(",existence");
   for (const std::string& name : more_.names) file_.write("," + name);
   file_.write("\n");
 }
 
 void TrackWriter::add(const TrackSnapshot& snapshot) {
+  write_header(snapshot.weighs_existence);
   if (snapshot.time != time_) file_.write(pending_.text());
   pending_.clear();
   time_ = snapshot.time;
@@ -27,18 +33,21 @@ void TrackWriter::add(const TrackSnapshot& snapshot) {
       ry = track.residual->y();
     }
     pending_ << rx << ry << track.sigma.x() << track.sigma.y();
+    if (snapshot.weighs_existence) pending_ << track.existence;
     if (more_.append) more_.append(pending_, track);
     pending_.end();
   }
 }
 
 void TrackWriter::commit() {
+  write_header(false);
   file_.write(pending_.text());
   pending_.clear();
   file_.commit();
 }
 
 void TrackWriter::keep_partial() {
+  write_header(false);
   file_.write(pending_.text());
   pending_.clear();
   file_.keep_partial();

@@ -19,8 +19,9 @@ struct TrackColumns {
 };
 
 /// Writes tracks.csv:
-/// `t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y`. Of several scans
-/// at one instant the tracks after the last one are written, so that a track has one row per time.
+/// `t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y`, and `existence`
+/// where the tracker weighs it. Of several scans at one instant the tracks after the last one are
+/// written, so that a track has one row per time.
 class TrackWriter {
  public:
   explicit TrackWriter(std::filesystem::path path, TrackColumns more = {});
@@ -29,8 +30,11 @@ class TrackWriter {
   void keep_partial();
 
  private:
+  void write_header(bool with_existence);
+
   AtomicFile file_;
   TrackColumns more_;
+  bool has_header_ = false;
   CsvRow pending_;  // the rows of the latest instant
   double time_ = std::numeric_limits<double>::quiet_NaN();
 };

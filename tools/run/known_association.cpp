@@ -32,6 +32,7 @@ void step_one(const TrackerDesign& design, KnownState& state, ObjectId object, S
 
 TrackerDesign design_for_one_object(TrackerConfig config, std::vector<SensorTraits> sensors) {
   config.association = Association::kNearestGlobal;
+  config.life_cycle = LifeCycle::kCounts;
   config.gate = std::numeric_limits<double>::infinity();
   config.merge.scans = 0;
   return {std::move(config), std::move(sensors)};

@@ -20,9 +20,14 @@ double median_period(std::span<const Scan> scans) {
 }
 
 SensorTraits traits_of(const OfflineConfig& config, double period) {
-  return {.period = period,
-          .sigma = config.noise,
-          .field_of_view = rectangle_between(config.field_of_view)};
+  SensorTraits traits{.period = period,
+                      .sigma = config.noise,
+                      .field_of_view = rectangle_between(config.field_of_view),
+                      .coverage = config.scan};
+  traits.detection_probability =
+      config.detection_probability.value_or(traits.detection_probability);
+  traits.clutter = config.clutter.value_or(traits.clutter);
+  return traits;
 }
 
 }  // namespace
@@ -44,7 +49,8 @@ TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
   double last = 0.0;
   bool is_first = true;
   for (Scan scan; scans.next(scan); is_first = false) {
-    for (int missing = 1; !is_first && !state.tracks.empty(); ++missing) {
+    const bool may_lack = !is_first && config.scan == Coverage::kWhole;
+    for (int missing = 1; may_lack && !state.tracks.empty(); ++missing) {
       const double time = last + missing * period;
       if (time > scan.time - 0.5 * period) break;
       process({.time = time, .sensor = scan.sensor, .detections = {}});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ struct OfflineConfig {
   double noise = 1.0;   // 1-sigma error of a detection per axis [m, or pixel]
   double period = 0.0;  // time between scans [s]; 0: the median of the file
   std::vector<Eigen::Vector2d> field_of_view;
+  std::optional<double> detection_probability;
+  std::optional<double> clutter;  // expected false detections in one look at all of the view
+  Coverage scan = Coverage::kWhole;
   TrackerConfig tracker;
   BoxTrackerConfig boxes;
   BoxOutputConfig box_output;
@@ -43,6 +47,20 @@ struct OfflineConfig {
              .minimum = -1e7,
              .maximum = 1e7,
              .max_items = 2});
+    v.field("detection_probability", &OfflineConfig::detection_probability,
+            {.unit = "1",
+             .meaning = "chance that an object in view is detected in a scan",
+             .above = 0.0,
+             .maximum = 1.0});
+    v.field("clutter", &OfflineConfig::clutter,
+            {.unit = "1",
+             .meaning = "expected false detections per scan, anywhere in the field of view",
+             .minimum = 0.0,
+             .maximum = 1e5});
+    v.field("scan", &OfflineConfig::scan,
+            {.meaning = "whether a scan shows the `whole` field of view, or `partial`: one object of "
+                        "many, as a rotating radar or AIS does; 'period' is then the time between "
+                        "two looks at the same object"});
     v.field("tracker", &OfflineConfig::tracker, {.meaning = "the tracker, as in a scene"});
     v.field("boxes", &OfflineConfig::boxes,
             {.meaning = "the tracker of boxes, instead of the above, for MOTChallenge files"});

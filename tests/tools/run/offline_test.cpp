@@ -17,9 +17,9 @@ OfflineConfig reference_tracker() {
   OfflineConfig config;
   config.noise = 2.0;
   config.tracker.gate = 3.0;
-  config.tracker.confirm = {.hits = 3, .scans = 64};
-  config.tracker.drop_tentative = {.misses = 2, .scans = 2};
-  config.tracker.drop_confirmed = {.misses = 4, .scans = 4};
+  config.tracker.confirm = HitRule{.hits = 3, .scans = 64};
+  config.tracker.drop_tentative = MissRule{.misses = 2, .scans = 2};
+  config.tracker.drop_confirmed = MissRule{.misses = 4, .scans = 4};
   KalmanCvConfig filter;
   filter.model.emplace<process::WhiteNoise<1>>().spectral_density = 0.05;
   filter.initial_speed = 3.0;

@@ -1,0 +1,429 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "tracker/association/k_best.hpp"
+#include "tracker/life_cycle.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr std::size_t kMostHypotheses = 100;  // in a cluster
+constexpr double kWithin = 11.5;              // ln of how much likelier the likeliest one may be
+constexpr double kLeastOdds = 1e-4;           // of a pair that is considered
+constexpr double kMostWork = 4000.0;          // hypotheses times targets
+
+/// A branch in a scan: its detections, and what it costs to have none.
+struct Prospect {
+  std::vector<Candidate> candidates;  // cost: −ln of the odds of this pair to none
+  double detection = 0.0;             // probability that it had to be detected
+  double log_missed = 0.0;
+};
+
+/// A cluster in a scan.
+struct Scene {
+  Cluster cluster;
+  std::vector<std::vector<Prospect>> prospects;  // of each target's branches
+};
+
+double log_sum(const std::vector<Hypothesis>& hypotheses) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Hypothesis& h : hypotheses) most = std::max(most, h.log_weight);
+  double sum = 0.0;
+  for (const Hypothesis& h : hypotheses) sum += std::exp(h.log_weight - most);
+  return most + std::log(sum);
+}
+
+/// Makes the weights sum up to 1. @returns the ln of what they did before
+double normalise(std::vector<Hypothesis>& hypotheses) {
+  const double sum = log_sum(hypotheses);
+  for (Hypothesis& h : hypotheses) h.log_weight -= sum;
+  return sum;
+}
+
+/// Likeliest first; leaves out what is too unlikely or too much.
+void cut(std::vector<Hypothesis>& hypotheses, std::size_t most) {
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
+  const double least = hypotheses.front().log_weight - kWithin;
+  while (hypotheses.size() > most || hypotheses.back().log_weight < least) hypotheses.pop_back();
+}
+
+std::size_t most_hypotheses(std::size_t targets) {
+  const double affordable = kMostWork / static_cast<double>(std::max<std::size_t>(1, targets));
+  return std::clamp<std::size_t>(static_cast<std::size_t>(affordable), 1, kMostHypotheses);
+}
+
+/// Every explanation of one together with every one of the other.
+void join(Scene& scene, Scene&& other) {
+  const std::size_t targets = scene.cluster.targets.size() + other.cluster.targets.size();
+  std::vector<Hypothesis> joint;
+  for (const Hypothesis& a : scene.cluster.hypotheses) {
+    for (const Hypothesis& b : other.cluster.hypotheses) {
+      Hypothesis& both = joint.emplace_back(a);
+      both.log_weight += b.log_weight;
+      both.branch_of.insert(both.branch_of.end(), b.branch_of.begin(), b.branch_of.end());
+    }
+  }
+  cut(joint, most_hypotheses(targets));
+  normalise(joint);
+  scene.cluster.hypotheses = std::move(joint);
+  std::move(other.cluster.targets.begin(), other.cluster.targets.end(),
+            std::back_inserter(scene.cluster.targets));
+  std::move(other.prospects.begin(), other.prospects.end(), std::back_inserter(scene.prospects));
+}
+
+/// One scan under all hypotheses.
+class MultiScan {
+ public:
+  MultiScan(Look& look, TrackerState& state)
+      : look_(look),
+        state_(state),
+        evidence_(look.design.evidence(look.scan.sensor)),
+        members_(look.grid.members()),
+        scene_of_(members_.size(), kNobody) {
+    const double undetected = state.undetected.before_look(evidence_, look.scan.sensor, state.time);
+    nobodys_ = evidence_.nobodys(undetected);
+    real_ = evidence_.detection_probability * undetected / nobodys_;
+  }
+
+  void run() {
+    predict_all();
+    look_.clock.finished(&StepTimes::predict);
+    gather();
+    look_.clock.finished(&StepTimes::associate);
+    state_.log_likelihood = evidence_.log_nobodys(nobodys_, members_.size());
+    state_.clusters.clear();
+    for (Scene& scene : scenes_) {
+      if (!scene.cluster.targets.empty()) update(std::move(scene));
+    }
+    look_.clock.finished(&StepTimes::update);
+    begin_alone();
+    state_.undetected.after_look(evidence_, look_.scan.sensor);
+    report();
+    look_.clock.finished(&StepTimes::begin);
+  }
+
+ private:
+  static constexpr int kNobody = -1;
+
+  void predict_all() {
+    const double stay = survival(look_.elapsed, evidence_.lifetime);
+    for (Cluster& cluster : state_.clusters) {
+      Scene& scene = scenes_.emplace_back();
+      scene.cluster = std::move(cluster);
+      for (Target& target : scene.cluster.targets) {
+        auto& prospects = scene.prospects.emplace_back();
+        for (Branch& branch : target.branches) {
+          predict(branch.track, look_.elapsed);
+          *branch.track.existence *= stay;
+          prospects.push_back(prospect_of(branch.track));
+        }
+      }
+    }
+  }
+
+  Prospect prospect_of(const Track& track) const {
+    const double r = *track.existence;
+    const double p = evidence_.detection_probability;
+    Prospect result;
+    result.detection = is_due(track, look_.sensor, look_.scan.time) ? p : 0.0;
+    const double missed = 1.0 - r * result.detection;
+    result.log_missed = std::log(missed);
+    const double base = std::log(2.0 * std::numbers::pi * nobodys_ * missed / (r * p));
+    std::vector<Gated> gated;
+    look_.grid.find_in_gate(track.prediction, look_.config().gate, gated);
+    for (const auto& [member, squared_distance, determinant] : gated) {
+      const double cost = base + 0.5 * (squared_distance + std::log(determinant));
+      if (cost < -std::log(kLeastOdds)) result.candidates.push_back({member, cost});
+    }
+    return result;
+  }
+
+  /// Joins the clusters that compete for a detection now.
+  void gather() {
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      std::vector<int> rivals;
+      std::vector<int> mine;
+      for (const auto& prospects : scenes_[i].prospects) {
+        for (const Prospect& prospect : prospects) {
+          for (const Candidate& candidate : prospect.candidates) {
+            int& owner = scene_of_[candidate.detection];
+            if (owner != kNobody && owner != static_cast<int>(i)) rivals.push_back(owner);
+            mine.push_back(candidate.detection);
+          }
+        }
+      }
+      std::sort(rivals.begin(), rivals.end());
+      rivals.erase(std::unique(rivals.begin(), rivals.end()), rivals.end());
+      for (const int detection : mine) scene_of_[detection] = static_cast<int>(i);
+      for (const int rival : rivals) {
+        Scene& other = scenes_[rival];
+        for (const auto& prospects : other.prospects) {
+          for (const Prospect& prospect : prospects) {
+            for (const Candidate& c : prospect.candidates)
+              scene_of_[c.detection] = static_cast<int>(i);
+          }
+        }
+        Scene merged = std::move(other);
+        other = {};
+        join(merged, std::move(scenes_[i]));
+        scenes_[i] = std::move(merged);
+      }
+    }
+  }
+
+  /// The detections that anybody in the scene may take, in their order.
+  std::vector<int> detections_of(const Scene& scene) const {
+    std::vector<int> detections;
+    for (const auto& prospects : scene.prospects) {
+      for (const Prospect& prospect : prospects) {
+        for (const Candidate& c : prospect.candidates) detections.push_back(c.detection);
+      }
+    }
+    std::sort(detections.begin(), detections.end());
+    detections.erase(std::unique(detections.begin(), detections.end()), detections.end());
+    return detections;
+  }
+
+  AssignmentProblem problem_of(const Scene& scene, const Hypothesis& hypothesis,
+                               const std::vector<int>& detections) const {
+    AssignmentProblem problem{.base = -hypothesis.log_weight, .table = {}};
+    for (std::size_t t = 0; t < hypothesis.branch_of.size(); ++t) {
+      if (hypothesis.branch_of[t] == Hypothesis::kAbsent) continue;
+      const Prospect& prospect = scene.prospects[t][hypothesis.branch_of[t]];
+      problem.base -= prospect.log_missed;
+      for (const Candidate& c : prospect.candidates) {
+        const auto local = std::lower_bound(detections.begin(), detections.end(), c.detection);
+        problem.table.candidates.push_back({static_cast<int>(local - detections.begin()), c.cost});
+      }
+      problem.table.close_row();
+    }
+    return problem;
+  }
+
+  /// The track of a branch after it had this detection, or none.
+  Branch follow(const Branch& branch, const Prospect& prospect, int member) const {
+    Branch next = branch;
+    std::shift_right(next.recent.begin(), next.recent.end(), 1);
+    if (member == kMissed) {
+      next.recent.front() = 0;
+      next.track.existence = after_miss(*branch.track.existence, prospect.detection);
+      miss(next.track, look_.sensor, look_.scan.time);
+    } else {
+      next.recent.front() = member + 1;
+      next.track.existence = 1.0;
+      hit(next.track, members_[member], look_.scan);
+    }
+    return next;
+  }
+
+  bool is_worth_keeping(const Track& track) const {
+    return *track.existence >= look_.config().existence.drop &&
+           track.unseen < look_.config().drop_unseen;
+  }
+
+  Target begin(int member, double existence) {
+    Target target{.birth = state_.next_birth++, .id = 0, .branches = {}};
+    Branch& branch = target.branches.emplace_back(look_.begin(members_[member]));
+    branch.track.existence = existence;
+    branch.recent.front() = member + 1;
+    return target;
+  }
+
+  /// Replaces the hypotheses of a scene by the likeliest of their continuations.
+  void update(Scene&& scene) {
+    const std::vector<int> detections = detections_of(scene);
+    const auto count = static_cast<int>(detections.size());
+    std::vector<AssignmentProblem> problems;
+    for (const Hypothesis& h : scene.cluster.hypotheses) {
+      problems.push_back(problem_of(scene, h, detections));
+    }
+    const std::vector<RankedAssignment> ranked =
+        best_assignments(problems, count, most_hypotheses(scene.cluster.targets.size()), kWithin);
+
+    // The old targets go on; a detection that is left may be a new one.
+    const std::size_t old = scene.cluster.targets.size();
+    Cluster next;
+    next.targets.resize(old);
+    for (std::size_t t = 0; t < old; ++t) {
+      next.targets[t].birth = scene.cluster.targets[t].birth;
+      next.targets[t].id = scene.cluster.targets[t].id;
+    }
+    std::map<std::tuple<std::size_t, int, int>, int> known;  // target, branch, detection
+    std::vector<double> unused(detections.size(), 0.0);
+    for (const RankedAssignment& assignment : ranked) {
+      const Hypothesis& past = scene.cluster.hypotheses[assignment.problem];
+      Hypothesis& h = next.hypotheses.emplace_back();
+      h.log_weight = -assignment.cost;
+      h.branch_of.assign(old + detections.size(), Hypothesis::kAbsent);
+      std::fill(h.branch_of.begin() + static_cast<std::ptrdiff_t>(old), h.branch_of.end(), 0);
+      std::size_t row = 0;
+      for (std::size_t t = 0; t < old; ++t) {
+        const int branch = past.branch_of[t];
+        if (branch == Hypothesis::kAbsent) continue;
+        const int local = assignment.detection_of[row++];
+        if (local != kMissed) h.branch_of[old + local] = Hypothesis::kAbsent;
+        const auto [place, is_new] = known.try_emplace({t, branch, local}, Hypothesis::kAbsent);
+        if (is_new) {
+          const int member = local == kMissed ? kMissed : detections[local];
+          Branch followed =
+              follow(scene.cluster.targets[t].branches[branch], scene.prospects[t][branch], member);
+          if (is_worth_keeping(followed.track)) {
+            place->second = static_cast<int>(next.targets[t].branches.size());
+            next.targets[t].branches.push_back(std::move(followed));
+          }
+        }
+        h.branch_of[t] = place->second;
+      }
+    }
+    state_.log_likelihood += normalise(next.hypotheses);
+    for (const Hypothesis& h : next.hypotheses) {
+      for (std::size_t j = 0; j < detections.size(); ++j) {
+        if (h.branch_of[old + j] != Hypothesis::kAbsent) unused[j] += std::exp(h.log_weight);
+      }
+    }
+    for (std::size_t j = 0; j < detections.size(); ++j) {
+      if (unused[j] * real_ >= look_.config().existence.drop) {
+        next.targets.push_back(begin(detections[j], real_));
+        continue;
+      }
+      next.targets.emplace_back();
+      for (Hypothesis& h : next.hypotheses) h.branch_of[old + j] = Hypothesis::kAbsent;
+    }
+    simplify(next);
+    split(std::move(next));
+  }
+
+  /// Hypotheses that agree on the last scans, whichever target they give the detections to, are
+  /// one: the likelier one stays, with the weight of both.
+  void simplify(Cluster& cluster) const {
+    std::map<std::uint64_t, std::size_t> known;
+    std::vector<Hypothesis> kept;
+    for (Hypothesis& h : cluster.hypotheses) {  // likeliest first
+      const auto [place, is_new] = known.try_emplace(recent_of(cluster, h), kept.size());
+      if (is_new) {
+        kept.push_back(std::move(h));
+        continue;
+      }
+      double& weight = kept[place->second].log_weight;
+      weight += std::log1p(std::exp(h.log_weight - weight));
+    }
+    cut(kept, kMostHypotheses);
+    normalise(kept);
+    cluster.hypotheses = std::move(kept);
+  }
+
+  static std::uint64_t mixed(std::uint64_t x) {  // SplitMix64
+    x += 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31U);
+  }
+
+  /// A number for the set of the targets' latest detections.
+  static std::uint64_t recent_of(const Cluster& cluster, const Hypothesis& h) {
+    std::uint64_t sum = 0;
+    for (std::size_t t = 0; t < h.branch_of.size(); ++t) {
+      if (h.branch_of[t] == Hypothesis::kAbsent) continue;
+      const auto& recent = cluster.targets[t].branches[h.branch_of[t]].recent;
+      std::uint64_t hash = 0;
+      bool is_seen = false;
+      for (const int detection : recent) {
+        hash = mixed(hash + static_cast<std::uint64_t>(detection));
+        is_seen = is_seen || detection != 0;
+      }
+      if (!is_seen) hash = mixed(hash + static_cast<std::uint64_t>(cluster.targets[t].birth));
+      sum += mixed(hash);
+    }
+    return sum;
+  }
+
+  /// Leaves out what no hypothesis has; targets on which all agree are clusters of their own.
+  void split(Cluster&& cluster) {
+    Cluster rest;
+    rest.hypotheses.resize(cluster.hypotheses.size());
+    for (std::size_t i = 0; i < rest.hypotheses.size(); ++i) {
+      rest.hypotheses[i].log_weight = cluster.hypotheses[i].log_weight;
+    }
+    for (std::size_t t = 0; t < cluster.targets.size(); ++t) {
+      Target& target = cluster.targets[t];
+      const int first = cluster.hypotheses.front().branch_of[t];
+      const bool agreed = std::all_of(cluster.hypotheses.begin(), cluster.hypotheses.end(),
+                                      [&](const Hypothesis& h) { return h.branch_of[t] == first; });
+      if (agreed && first == Hypothesis::kAbsent) continue;
+      if (agreed) {
+        Branch only = std::move(target.branches[first]);
+        target.branches.clear();
+        target.branches.push_back(std::move(only));
+        Cluster& alone = state_.clusters.emplace_back();
+        alone.targets.push_back(std::move(target));
+        alone.hypotheses.push_back({.log_weight = 0.0, .branch_of = {0}});
+        continue;
+      }
+      std::vector<int> place(target.branches.size(), Hypothesis::kAbsent);
+      Target used{.birth = target.birth, .id = target.id, .branches = {}};
+      for (std::size_t i = 0; i < rest.hypotheses.size(); ++i) {
+        int branch = cluster.hypotheses[i].branch_of[t];
+        if (branch != Hypothesis::kAbsent) {
+          if (place[branch] == Hypothesis::kAbsent) {
+            place[branch] = static_cast<int>(used.branches.size());
+            used.branches.push_back(std::move(target.branches[branch]));
+          }
+          branch = place[branch];
+        }
+        rest.hypotheses[i].branch_of.push_back(branch);
+      }
+      rest.targets.push_back(std::move(used));
+    }
+    if (!rest.targets.empty()) state_.clusters.push_back(std::move(rest));
+  }
+
+  /// Detections that are in nobody's gate.
+  void begin_alone() {
+    if (real_ < look_.config().existence.drop) return;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (scene_of_[i] != kNobody) continue;
+      Cluster& alone = state_.clusters.emplace_back();
+      alone.targets.push_back(begin(static_cast<int>(i), real_));
+      alone.hypotheses.push_back({.log_weight = 0.0, .branch_of = {0}});
+    }
+  }
+
+  /// The tracks of the likeliest hypotheses.
+  void report() {
+    state_.tracks.clear();
+    for (Cluster& cluster : state_.clusters) {
+      const Hypothesis& likeliest = cluster.hypotheses.front();
+      for (std::size_t t = 0; t < cluster.targets.size(); ++t) {
+        if (likeliest.branch_of[t] == Hypothesis::kAbsent) continue;
+        Target& target = cluster.targets[t];
+        Track& track = state_.tracks.emplace_back(target.branches[likeliest.branch_of[t]].track);
+        track.id = target.id > 0 ? target.id : -target.birth;
+        judge(look_.config().existence, track, state_.next_id);
+        if (track.id > 0) target.id = track.id;
+      }
+    }
+  }
+
+  Look& look_;
+  TrackerState& state_;
+  const Evidence& evidence_;
+  const std::vector<PlacedDetection>& members_;
+  double nobodys_ = 0.0;       // density of detections that are no track's
+  double real_ = 0.0;          // part of them that are of targets
+  std::vector<Scene> scenes_;  // empty once joined to another
+  std::vector<int> scene_of_;  // of each member: who may take it
+};
+
+}  // namespace
+
+void step_by_hypotheses(Look& look, TrackerState& state) { MultiScan(look, state).run(); }
+
+}  // namespace ghtrack

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sensors/detection.hpp"
+#include "tracker/existence.hpp"
+#include "tracker/filters/filter.hpp"
+#include "tracker/tracker_config.hpp"
+
+namespace ghtrack {
+
+/// A tracker for given sensors: its configuration, and a filter designed for each class and sensor.
+/// Without a filter named "default", those of all classes run side by side where no class is told.
+class TrackerDesign {
+ public:
+  /// @param sensors  the data sheets, by Scan::sensor
+  /// @throws std::invalid_argument if a filter cannot be designed, such as for unstable gains, or
+  ///         the association is `known`: who knows it decorates a tracker that does not
+  TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors);
+
+  const TrackerConfig& config() const { return config_; }
+  const SensorTraits& sensor(int index) const {
+    return sensors_.at(static_cast<std::size_t>(index));
+  }
+  /// What a look of that sensor says of existence.
+  const Evidence& evidence(int sensor) const {
+    return evidence_.at(static_cast<std::size_t>(sensor));
+  }
+
+  /// The filter of a new track: waits for its first measurement.
+  const Filter& filter_for(std::string_view label, int sensor) const;
+
+ private:
+  using FiltersByLabel = std::map<std::string, Filter, std::less<>>;
+
+  TrackerConfig config_;
+  std::vector<SensorTraits> sensors_;
+  std::vector<Evidence> evidence_;       // of each sensor
+  std::vector<FiltersByLabel> filters_;  // of each sensor
+};
+
+}  // namespace ghtrack
