@@ -16,14 +16,14 @@ namespace ghtrack {
 
 /// One way that a target may have gone: a track whose detections were such.
 struct Branch {
-  static constexpr std::size_t kWindow = 5;  // scans back that hypotheses are told apart by
+  static constexpr std::size_t kWindow = 3;  // scans back that hypotheses are told apart by
 
   Track track;
   std::array<int, kWindow> recent{};  // its detections, the latest one first; 0: none
 };
 
-/// A target, or what may be one, and the ways that it may have gone.
-struct Target {
+/// The tree of tracks of a target, or of what may be one: the ways that it may have gone.
+struct TrackTree {
   int birth = 0;  // counts from 1
   int id = 0;     // 0 until it is confirmed
   std::vector<Branch> branches;
@@ -39,8 +39,8 @@ struct Hypothesis {
 
 /// Targets that have competed for detections, and the explanations that are left, likeliest first.
 /// The weights of the hypotheses sum up to 1.
-struct Cluster {
-  std::vector<Target> targets;
+struct TrackCluster {
+  std::vector<TrackTree> targets;
   std::vector<Hypothesis> hypotheses;
 };
 

@@ -28,7 +28,7 @@ struct Prospect {
 
 /// A cluster in a scan.
 struct Scene {
-  Cluster cluster;
+  TrackCluster cluster;
   std::vector<std::vector<Prospect>> prospects;  // of each target's branches
 };
 
@@ -115,10 +115,10 @@ class MultiScan {
 
   void predict_all() {
     const double stay = survival(look_.elapsed, evidence_.lifetime);
-    for (Cluster& cluster : state_.clusters) {
+    for (TrackCluster& cluster : state_.clusters) {
       Scene& scene = scenes_.emplace_back();
       scene.cluster = std::move(cluster);
-      for (Target& target : scene.cluster.targets) {
+      for (TrackTree& target : scene.cluster.targets) {
         auto& prospects = scene.prospects.emplace_back();
         for (Branch& branch : target.branches) {
           predict(branch.track, look_.elapsed);
@@ -229,8 +229,8 @@ class MultiScan {
            track.unseen < look_.config().drop_unseen;
   }
 
-  Target begin(int member, double existence) {
-    Target target{.birth = state_.next_birth++, .id = 0, .branches = {}};
+  TrackTree begin(int member, double existence) {
+    TrackTree target{.birth = state_.next_birth++, .id = 0, .branches = {}};
     Branch& branch = target.branches.emplace_back(look_.begin(members_[member]));
     branch.track.existence = existence;
     branch.recent.front() = member + 1;
@@ -250,7 +250,7 @@ class MultiScan {
 
     // The old targets go on; a detection that is left may be a new one.
     const std::size_t old = scene.cluster.targets.size();
-    Cluster next;
+    TrackCluster next;
     next.targets.resize(old);
     for (std::size_t t = 0; t < old; ++t) {
       next.targets[t].birth = scene.cluster.targets[t].birth;
@@ -303,7 +303,7 @@ class MultiScan {
 
   /// Hypotheses that agree on the last scans, whichever target they give the detections to, are
   /// one: the likelier one stays, with the weight of both.
-  void simplify(Cluster& cluster) const {
+  void simplify(TrackCluster& cluster) const {
     std::map<std::uint64_t, std::size_t> known;
     std::vector<Hypothesis> kept;
     for (Hypothesis& h : cluster.hypotheses) {  // likeliest first
@@ -328,7 +328,7 @@ class MultiScan {
   }
 
   /// A number for the set of the targets' latest detections.
-  static std::uint64_t recent_of(const Cluster& cluster, const Hypothesis& h) {
+  static std::uint64_t recent_of(const TrackCluster& cluster, const Hypothesis& h) {
     std::uint64_t sum = 0;
     for (std::size_t t = 0; t < h.branch_of.size(); ++t) {
       if (h.branch_of[t] == Hypothesis::kAbsent) continue;
@@ -345,44 +345,96 @@ class MultiScan {
     return sum;
   }
 
-  /// Leaves out what no hypothesis has; targets on which all agree are clusters of their own.
-  void split(Cluster&& cluster) {
-    Cluster rest;
-    rest.hypotheses.resize(cluster.hypotheses.size());
-    for (std::size_t i = 0; i < rest.hypotheses.size(); ++i) {
-      rest.hypotheses[i].log_weight = cluster.hypotheses[i].log_weight;
-    }
+  /// Makes clusters of those targets that compete: of what no hypothesis has nothing is left, a
+  /// target on which all agree is alone, and so are targets that have shared no detection lately
+  /// under any hypotheses. What one group of them has done says nothing of another one.
+  void split(TrackCluster&& cluster) {
+    const std::vector<int> group = groups_of(cluster);
     for (std::size_t t = 0; t < cluster.targets.size(); ++t) {
-      Target& target = cluster.targets[t];
-      const int first = cluster.hypotheses.front().branch_of[t];
-      const bool agreed = std::all_of(cluster.hypotheses.begin(), cluster.hypotheses.end(),
-                                      [&](const Hypothesis& h) { return h.branch_of[t] == first; });
-      if (agreed && first == Hypothesis::kAbsent) continue;
-      if (agreed) {
-        Branch only = std::move(target.branches[first]);
-        target.branches.clear();
-        target.branches.push_back(std::move(only));
-        Cluster& alone = state_.clusters.emplace_back();
-        alone.targets.push_back(std::move(target));
-        alone.hypotheses.push_back({.log_weight = 0.0, .branch_of = {0}});
-        continue;
+      if (group[t] != static_cast<int>(t)) continue;  // its group's first
+      std::vector<std::size_t> members;
+      for (std::size_t u = t; u < cluster.targets.size(); ++u) {
+        if (group[u] == static_cast<int>(t)) members.push_back(u);
       }
-      std::vector<int> place(target.branches.size(), Hypothesis::kAbsent);
-      Target used{.birth = target.birth, .id = target.id, .branches = {}};
-      for (std::size_t i = 0; i < rest.hypotheses.size(); ++i) {
-        int branch = cluster.hypotheses[i].branch_of[t];
-        if (branch != Hypothesis::kAbsent) {
-          if (place[branch] == Hypothesis::kAbsent) {
-            place[branch] = static_cast<int>(used.branches.size());
-            used.branches.push_back(std::move(target.branches[branch]));
-          }
-          branch = place[branch];
-        }
-        rest.hypotheses[i].branch_of.push_back(branch);
-      }
-      rest.targets.push_back(std::move(used));
+      state_.clusters.push_back(part_of(cluster, members));
     }
-    if (!rest.targets.empty()) state_.clusters.push_back(std::move(rest));
+  }
+
+  static bool is_agreed(const TrackCluster& cluster, std::size_t t) {
+    const int first = cluster.hypotheses.front().branch_of[t];
+    return std::all_of(cluster.hypotheses.begin(), cluster.hypotheses.end(),
+                       [&](const Hypothesis& h) { return h.branch_of[t] == first; });
+  }
+
+  /// For each target the first one of its group, or kNobody for one that no hypothesis has.
+  static std::vector<int> groups_of(const TrackCluster& cluster) {
+    std::vector<int> parent(cluster.targets.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int t) {
+      while (parent[t] != t) t = parent[t] = parent[parent[t]];
+      return t;
+    };
+    std::map<std::pair<std::size_t, int>, int> taker;  // of a detection so many scans ago
+    for (std::size_t t = 0; t < cluster.targets.size(); ++t) {
+      if (is_agreed(cluster, t)) continue;
+      for (const Hypothesis& h : cluster.hypotheses) {
+        if (h.branch_of[t] == Hypothesis::kAbsent) continue;
+        const auto& recent = cluster.targets[t].branches[h.branch_of[t]].recent;
+        for (std::size_t age = 0; age < recent.size(); ++age) {
+          if (recent[age] == 0) continue;
+          const auto known = taker.try_emplace({age, recent[age]}, static_cast<int>(t)).first;
+          const int a = root(known->second);
+          const int b = root(static_cast<int>(t));
+          parent[std::max(a, b)] = std::min(a, b);
+        }
+      }
+    }
+    std::vector<int> group(cluster.targets.size());
+    for (std::size_t t = 0; t < group.size(); ++t) {
+      const bool is_absent =
+          is_agreed(cluster, t) && cluster.hypotheses.front().branch_of[t] == Hypothesis::kAbsent;
+      group[t] = is_absent ? kNobody : root(static_cast<int>(t));
+    }
+    return group;
+  }
+
+  /// Some of the targets, with what the hypotheses say of them alone.
+  static TrackCluster part_of(TrackCluster& cluster, const std::vector<std::size_t>& members) {
+    TrackCluster part;
+    std::map<std::vector<int>, std::size_t> known;
+    std::vector<std::vector<int>> place;  // of each branch that is used
+    for (const std::size_t t : members) {
+      part.targets.push_back(
+          {.birth = cluster.targets[t].birth, .id = cluster.targets[t].id, .branches = {}});
+      place.emplace_back(cluster.targets[t].branches.size(), Hypothesis::kAbsent);
+    }
+    for (const Hypothesis& h : cluster.hypotheses) {
+      Hypothesis own{.log_weight = h.log_weight, .branch_of = {}};
+      for (std::size_t m = 0; m < members.size(); ++m) {
+        int branch = h.branch_of[members[m]];
+        if (branch != Hypothesis::kAbsent) {
+          int& used = place[m][branch];
+          if (used == Hypothesis::kAbsent) {
+            used = static_cast<int>(part.targets[m].branches.size());
+            part.targets[m].branches.push_back(
+                std::move(cluster.targets[members[m]].branches[branch]));
+          }
+          branch = used;
+        }
+        own.branch_of.push_back(branch);
+      }
+      const auto [at, is_new] = known.try_emplace(own.branch_of, part.hypotheses.size());
+      if (is_new) {
+        part.hypotheses.push_back(std::move(own));
+      } else {
+        double& weight = part.hypotheses[at->second].log_weight;
+        const double more = std::max(weight, own.log_weight);
+        weight = more + std::log(std::exp(weight - more) + std::exp(own.log_weight - more));
+      }
+    }
+    cut(part.hypotheses, kMostHypotheses);
+    normalise(part.hypotheses);
+    return part;
   }
 
   /// Detections that are in nobody's gate.
@@ -390,7 +442,7 @@ class MultiScan {
     if (real_ < look_.config().existence.drop) return;
     for (std::size_t i = 0; i < members_.size(); ++i) {
       if (scene_of_[i] != kNobody) continue;
-      Cluster& alone = state_.clusters.emplace_back();
+      TrackCluster& alone = state_.clusters.emplace_back();
       alone.targets.push_back(begin(static_cast<int>(i), real_));
       alone.hypotheses.push_back({.log_weight = 0.0, .branch_of = {0}});
     }
@@ -399,11 +451,11 @@ class MultiScan {
   /// The tracks of the likeliest hypotheses.
   void report() {
     state_.tracks.clear();
-    for (Cluster& cluster : state_.clusters) {
+    for (TrackCluster& cluster : state_.clusters) {
       const Hypothesis& likeliest = cluster.hypotheses.front();
       for (std::size_t t = 0; t < cluster.targets.size(); ++t) {
         if (likeliest.branch_of[t] == Hypothesis::kAbsent) continue;
-        Target& target = cluster.targets[t];
+        TrackTree& target = cluster.targets[t];
         Track& track = state_.tracks.emplace_back(target.branches[likeliest.branch_of[t]].track);
         track.id = target.id > 0 ? target.id : -target.birth;
         judge(look_.config().existence, track, state_.next_id);

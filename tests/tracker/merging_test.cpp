@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+#include "tracker/tracker.hpp"
+
 namespace ghtrack {
 namespace {
 

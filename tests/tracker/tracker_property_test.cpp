@@ -266,7 +266,9 @@ TEST(TrackerProperty, StaysFiniteUnderHostileScans) {
       state = step(tracker, std::move(state), scans.next());
       most_tracks = std::max(most_tracks, state.tracks.size());
       for (const Track& track : state.tracks) {
-        if (track.existence) ASSERT_TRUE(*track.existence >= 0.0 && *track.existence <= 1.0) << i;
+        if (track.existence) {
+          ASSERT_TRUE(*track.existence >= 0.0 && *track.existence <= 1.0) << i;
+        }
         ASSERT_TRUE(estimate(track.filter).is_finite()) << i;
         ASSERT_TRUE(position_sigma(track.filter).allFinite()) << i;
       }

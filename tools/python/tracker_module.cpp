@@ -83,6 +83,9 @@ class LiveTracker {
       return track.residual.value_or(Eigen::Vector2d(kNone, kNone));
     });
     vectors({"sigma_x", "sigma_y"}, [](const TrackEstimate& track) { return track.sigma; });
+    if (now.weighs_existence) {
+      numbers("existence", [](const TrackEstimate& track) { return track.existence.value_or(1.0); });
+    }
     return columns;
   }
 
@@ -92,9 +95,7 @@ class LiveTracker {
     if (!(chosen > 0.0)) {
       throw std::invalid_argument("the time between scans is needed: give period");
     }
-    return {.period = chosen,
-            .sigma = config.noise,
-            .field_of_view = rectangle_between(config.field_of_view)};
+    return traits_of(config, chosen);
   }
 
   std::vector<Detection> detections(const Array& positions, const Array& covariances,

@@ -19,6 +19,8 @@ double median_period(std::span<const Scan> scans) {
   return *middle;
 }
 
+}  // namespace
+
 SensorTraits traits_of(const OfflineConfig& config, double period) {
   SensorTraits traits{.period = period,
                       .sigma = config.noise,
@@ -29,8 +31,6 @@ SensorTraits traits_of(const OfflineConfig& config, double period) {
   traits.clutter = config.clutter.value_or(traits.clutter);
   return traits;
 }
-
-}  // namespace
 
 TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
                            const std::function<void(const TrackSnapshot&)>& on_scan,

@@ -84,6 +84,10 @@ struct ScanSource {
   int sensors = 1;
 };
 
+/// What the configuration says of the sensor.
+/// @param period  time between scans [s]
+SensorTraits traits_of(const OfflineConfig& config, double period);
+
 /// Tracks recorded scans. A detection whose covariance is zero, which is unknown, has the noise that
 /// the configuration says. Instants without a detection are no rows of a file: where scans are
 /// missing, empty ones take their place until no track is left that could miss anything, so that

@@ -87,8 +87,8 @@ class Ranking {
       }
       bound += least;
       rest_.close_row();
-      if (bound > limit_) return;
     }
+    if (bound > limit_) return;
     part.best.detection_of.assign(start.begin(), start.begin() + part.fixed);
     for (const int detection : assign_globally(rest_, detections_, 0.0)) {
       cost += cost_of(table, static_cast<int>(part.best.detection_of.size()), detection);

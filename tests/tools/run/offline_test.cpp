@@ -113,7 +113,7 @@ TEST(Offline, MissingScansCountAsMisses) {
   ASSERT_EQ(snapshots.size(), 6U);
   EXPECT_EQ(snapshots[3].tracks.at(0).status, TrackStatus::kCoasting);
   EXPECT_EQ(snapshots[5].tracks.at(0).status, TrackStatus::kConfirmed);
-  EXPECT_EQ(snapshots[5].tracks.at(0).id, snapshots[0].tracks.at(0).id);
+  EXPECT_EQ(snapshots[5].tracks.at(0).id, snapshots[2].tracks.at(0).id);
 }
 
 }  // namespace
