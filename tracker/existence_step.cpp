@@ -181,7 +181,7 @@ Unused update_with_all(const Look& look, const Competition& competition, Tracker
 }  // namespace
 
 void judge(const ExistenceConfig& config, Track& track, int& next_id) {
-  if (*track.existence < config.confirm) {
+  if (*track.existence < (track.id > 0 ? config.doubt : config.confirm)) {
     track.status = TrackStatus::kTentative;
     return;
   }

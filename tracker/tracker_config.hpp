@@ -117,6 +117,7 @@ struct MergeRule {
 /// Probabilities of existence as in Musicki & Evans 2004 and Williams 2015.
 struct ExistenceConfig {
   double confirm = 0.5;
+  double doubt = 0.25;
   double drop = 2e-4;
   std::optional<double> lifetime;  // mean time that a target stays [s]
   double births = 0.001;
@@ -126,6 +127,11 @@ struct ExistenceConfig {
     v.field("confirm", &ExistenceConfig::confirm,
             {.unit = "1",
              .meaning = "a track is said to be real above this probability of existence",
+             .above = 0.0,
+             .below = 1.0});
+    v.field("doubt", &ExistenceConfig::doubt,
+            {.unit = "1",
+             .meaning = "a track that was said to be real is said to be so no longer below this one",
              .above = 0.0,
              .below = 1.0});
     v.field("drop", &ExistenceConfig::drop,
@@ -147,7 +153,8 @@ struct ExistenceConfig {
 
   template <class Report>
   void check(Report&& report) const {
-    if (drop >= confirm) report("drop", "must be below 'confirm'");
+    if (doubt > confirm) report("doubt", "must not be above 'confirm'");
+    if (drop >= doubt) report("drop", "must be below 'doubt'");
   }
 };
 

@@ -56,7 +56,8 @@ TEST_F(Run, WritesEveryPromisedFileWithItsColumns) {
   EXPECT_EQ(header("detections.csv"), "t,sensor,class,x,y");
   EXPECT_EQ(header("origins.csv"), "t,sensor,x,y,truth_id");
   EXPECT_EQ(header("tracks.csv"),
-            "t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y");
+            "t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y,"
+            "existence");
   EXPECT_THAT(run.out, HasSubstr("predicted"));
   EXPECT_TRUE(nlohmann::json::accept(contents(results / "metrics.json")));
 }
@@ -102,7 +103,7 @@ TEST_F(Run, KeepsWhatAnInterruptedRunHasDone) {
                           "tracks.csv.partial", "truth.csv.partial"));
   EXPECT_EQ(metrics_of(results / "metrics.json.partial").at("partial"), true);
   for (const auto& row : csv_rows(results / "truth.csv.partial")) ASSERT_EQ(row.size(), 10U);
-  for (const auto& row : csv_rows(results / "tracks.csv.partial")) ASSERT_EQ(row.size(), 16U);
+  for (const auto& row : csv_rows(results / "tracks.csv.partial")) ASSERT_EQ(row.size(), 17U);
 }
 
 // Property: the video of an interrupted run can be played.

@@ -48,7 +48,7 @@ TEST(WorldPlayer, FiltersAnewAtTheTurnOfAKnob) {
   for (std::size_t knob = 0; knob < player.knobs().size(); ++knob) {
     const cv::Mat before = player.image().clone();
     const double value = player.knobs()[knob].value;
-    player.turn(knob, 0.5 * value);
+    player.turn(knob, 0.05 * value);
     EXPECT_EQ(player.frame(), 40u);
     EXPECT_GT(difference(before, player.image()), 0.0) << player.knobs()[knob].name;
     player.turn(knob, value);
