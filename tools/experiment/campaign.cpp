@@ -7,6 +7,7 @@
 
 #include "scenes/schema/reader.hpp"
 #include "scenes/schema/writer.hpp"
+#include "sim/random.hpp"
 #include "tools/record/csv_writer.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/run/truth_source.hpp"
@@ -79,10 +80,6 @@ WorldScene read_world(const std::string& file, const std::vector<std::string>& o
                    "need a world");
 }
 
-std::uint64_t seed_of(const WorldScene& scene, int run) {
-  return scene.seed + static_cast<std::uint64_t>(run);
-}
-
 }  // namespace
 
 std::int64_t Campaign::items() const {
@@ -139,9 +136,16 @@ Campaign read_back(std::string_view text, const std::string& file) try {
   throw InputError(file + ": error: does not say which campaign its runs are of");
 }
 
+std::uint64_t seed_of_run(std::uint64_t seed, int run) {
+  constexpr int kExactInDoubles = 53;  // bits, so that every reader of a table gets the same seed
+  if (run == 0) return seed;
+  Stream stream(seed, Purpose::kResampling, 0, static_cast<std::uint64_t>(run));
+  return stream.bits() >> (64 - kExactInDoubles);
+}
+
 WorldScene scene_of_run(const WorldScene& scene, int run) {
   WorldScene changed = scene;
-  changed.seed = seed_of(scene, run);
+  changed.seed = seed_of_run(scene.seed, run);
   return changed;
 }
 
@@ -151,10 +155,10 @@ bool truth_is_fixed(const WorldScene& scene) {
 
 World world_of_run(const WorldScene& scene, int run) {
   WorldScene changed = scene;
-  if (scene.compare.fresh_wind) changed.seed = seed_of(scene, run);
+  if (scene.compare.fresh_wind) changed.seed = seed_of_run(scene.seed, run);
   if (scene.compare.launch) {
-    changed.targets = scatter_launches(scene.targets, *scene.compare.launch, seed_of(scene, run),
-                                       scene.environment);
+    changed.targets = scatter_launches(scene.targets, *scene.compare.launch,
+                                       seed_of_run(scene.seed, run), scene.environment);
   }
   return make_world(changed);
 }

@@ -50,6 +50,15 @@ std::string write_campaign(const Campaign& campaign);
 /// @throws InputError if the text is not of a campaign
 Campaign read_back(std::string_view text, const std::string& file);
 
+/// The seed of a run: the scene's own for run 0, and for the others numbers below 2^53 that no other
+/// run has, nor any run of a scene with another seed, but for chance (one pair in 10^16).
+std::uint64_t seed_of_run(std::uint64_t seed, int run);
+
+/// Runs of a scene that no campaign has, whatever its length: gains are tuned on the former and
+/// judged on the latter.
+inline constexpr int kFirstTuningRun = 1'000'000'000;
+inline constexpr int kFirstJudgingRun = 2'000'000'000;
+
 /// The scene of one run: its seed chooses the noise of the sensors.
 WorldScene scene_of_run(const WorldScene& scene, int run);
 

@@ -17,6 +17,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kConfidence = 0.95;
+constexpr double kNegligible = 0.01;      // of the best filter's mean: no difference that matters
 constexpr double kFollowedEnough = 0.95;  // of the share that the most faithful filter follows
 
 /// What one cell adds to the comparison; filters are numbered as its contenders.
@@ -84,7 +85,7 @@ class CellReduction {
     std::vector<std::vector<double>> values;
     for (std::size_t contender = 0; contender < contenders(); ++contender) {
       std::vector<double> of_runs = values_.at(layout_.value(contender, subject, metric));
-      const SampleMean mean = mean_of(of_runs, info(metric).averaging);
+      const SampleMean mean = mean_of(of_runs, info(metric).average);
       if (mean.values == 0) continue;
       ComparisonRow& row = rows.emplace_back();
       row.filter = contender;
@@ -94,9 +95,16 @@ class CellReduction {
       row.gains = gains_of(contender, row.regime);
       row.mean = mean.mean;
       row.ci95 = mean.ci95;
+      row.median = mean.median;
+      row.median_ci95 = mean.median_ci95;
+      row.has_heavy_tails = mean.has_heavy_tails;
+      if (may_be_ruined(metric)) {
+        row.ci95.reset();
+        row.has_heavy_tails = true;
+      }
       row.runs = mean.values;
       const SampleMean predicted = mean_of(
-          values_.at(layout_.predicted(contender, subject, metric)), info(metric).averaging);
+          values_.at(layout_.predicted(contender, subject, metric)), info(metric).average);
       if (predicted.values > 0) row.predicted = predicted.mean;
       if (metric == Metric::kRmsePosition) row.bound = theory.bound_position;
       if (metric == Metric::kRmseVelocity) row.bound = theory.bound_velocity;
@@ -106,27 +114,34 @@ class CellReduction {
     return rows;
   }
 
-  /// Names the best of several rows if the differences allow it. A filter that loses its objects
+  /// Errors of trackers that find out for themselves what is whose have tails that no number of runs
+  /// within reach shows whole: a track that is dragged along by clutter, once in hundreds of runs,
+  /// weighs as much as all others. A mean's interval from a sample without it would be too narrow.
+  bool may_be_ruined(Metric metric) const {
+    const bool is_error = metric == Metric::kRmsePosition || metric == Metric::kRmseVelocity ||
+                          metric == Metric::kPeakError;
+    return is_error && trial_.scene().tracker.association != Association::kKnown;
+  }
+
+  /// Judges several rows by their differences to the best of them. A filter that loses its objects
   /// much more often than another one cannot win: what it keeps may be the easy part.
   void judge(std::size_t subject, const std::vector<std::vector<double>>& values,
              std::vector<ComparisonRow>& rows) const {
-    const MetricInfo& metric = info(rows.front().metric);
-    const double sign = metric.better == Better::kLess ? 1.0 : -1.0;
-    std::vector<double> followed;
-    for (const ComparisonRow& row : rows) {
-      followed.push_back(
-          mean_of(values_.at(layout_.value(row.filter, subject, Metric::kTracked)), {}).mean);
-    }
-    const double enough = kFollowedEnough * *std::max_element(followed.begin(), followed.end());
+    const bool by_median = may_be_ruined(rows.front().metric);
+    const Average average = by_median ? Average::kMedian : info(rows.front().metric).average;
+    const double sign = info(rows.front().metric).better == Better::kLess ? 1.0 : -1.0;
+    const auto middle = [&](std::size_t i) { return by_median ? rows[i].median : rows[i].mean; };
+    const std::vector<bool> loses = losers(subject, rows);
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!(followed[i] >= enough)) continue;
-      if (!best || sign * rows[i].mean < sign * rows[*best].mean) best = i;
+      if (loses[i]) continue;
+      if (!best || sign * middle(i) < sign * middle(*best)) best = i;
     }
     if (!best) return;
 
     const double confidence = 1.0 - (1.0 - kConfidence) / static_cast<double>(rows.size() - 1);
-    bool alone = true;
+    const double negligible = kNegligible * std::abs(middle(*best));
+    Significance of_best = Significance::kBest;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ComparisonRow& row = rows[i];
       if (i == *best) {
@@ -134,20 +149,55 @@ class CellReduction {
         continue;
       }
       const PairedDifference difference =
-          paired_difference(values[i], values[*best], metric.averaging, confidence);
+          paired_difference(values[i], values[*best], average, confidence);
       if (!std::isnan(difference.value)) row.difference = difference.value;
       row.difference_ci95 = difference.interval;
-      if (!difference.interval) return forget_significance(rows);
-      const Interval& range = *difference.interval;
-      const bool worse = sign > 0.0 ? range.low > 0.0 : range.high < 0.0;
-      row.significance = worse || followed[i] < enough ? Significance::kWorse : Significance::kTied;
-      alone = alone && row.significance == Significance::kWorse;
+      row.significance =
+          loses[i] ? Significance::kWorse : verdict_on(difference, sign, negligible);
+      if (row.significance == Significance::kUndecided) {
+        row.runs_to_decide = runs_to_decide(difference, negligible);
+      }
+      of_best = weaker(of_best, row.significance);
     }
-    rows[*best].significance = alone ? Significance::kBest : Significance::kTied;
+    rows[*best].significance = of_best;
   }
 
-  static void forget_significance(std::vector<ComparisonRow>& rows) {
-    for (ComparisonRow& row : rows) row.significance = Significance::kNone;
+  /// Which filters lose their objects much more often than the most faithful one, beyond chance.
+  std::vector<bool> losers(std::size_t subject, const std::vector<ComparisonRow>& rows) const {
+    std::vector<std::vector<double>> followed;
+    std::vector<double> shares;
+    for (const ComparisonRow& row : rows) {
+      followed.push_back(values_.at(layout_.value(row.filter, subject, Metric::kTracked)));
+      shares.push_back(mean_of(followed.back(), Average::kShare).mean);
+    }
+    const auto most = std::max_element(shares.begin(), shares.end());
+    const std::vector<double>& faithful =
+        followed[static_cast<std::size_t>(most - shares.begin())];
+    std::vector<bool> loses;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const PairedDifference difference =
+          paired_difference(followed[i], faithful, Average::kShare, kConfidence);
+      loses.push_back(shares[i] < kFollowedEnough * *most && difference.interval &&
+                      difference.interval->high < 0.0);
+    }
+    return loses;
+  }
+
+  /// @param negligible  no difference that matters
+  static Significance verdict_on(const PairedDifference& difference, double sign,
+                                 double negligible) {
+    if (!difference.interval) return Significance::kTooFew;
+    const double low = sign > 0.0 ? difference.interval->low : -difference.interval->high;
+    const double high = sign > 0.0 ? difference.interval->high : -difference.interval->low;
+    if (low >= -negligible && high <= negligible) return Significance::kTied;
+    return low > 0.0 ? Significance::kWorse : Significance::kUndecided;
+  }
+
+  /// What can be said of the best filter once another one has this verdict.
+  static Significance weaker(Significance so_far, Significance other) {
+    if (other == Significance::kWorse || so_far == Significance::kTooFew) return so_far;
+    if (other == Significance::kTied && so_far == Significance::kUndecided) return so_far;
+    return other;
   }
 
   std::string gains_of(std::size_t contender, const std::string& regime) const {
@@ -165,7 +215,7 @@ class CellReduction {
     const double width = trial_.scene().duration / double{TrialLayout::kBins};
     for (std::size_t bin = 0; bin < TrialLayout::kBins; ++bin) {
       const std::vector<double> squares = values_.at(layout_.curve(contender, regime, bin));
-      const SampleMean mean = mean_of(squares, {});
+      const SampleMean mean = mean_of(squares, Average::kMean);
       if (mean.values == 0) continue;
       curve.points.push_back({.time = (static_cast<double>(bin) + 0.5) * width,
                               .rmse = std::sqrt(mean.mean),
@@ -263,10 +313,14 @@ std::string_view to_string(Significance significance) {
   switch (significance) {
     case Significance::kNone:
       return "";
+    case Significance::kTooFew:
+      return "too few runs";
     case Significance::kBest:
       return "best";
     case Significance::kTied:
       return "tied";
+    case Significance::kUndecided:
+      return "undecided";
     case Significance::kWorse:
       return "worse";
   }

@@ -21,10 +21,12 @@ namespace ghtrack {
 /// Whether a filter is better than all others, judged by 95 % intervals of its differences to the
 /// best one on the same runs, which hold for all filters together (Bonferroni).
 enum class Significance {
-  kNone,   // not comparable: one filter, a metric without better and worse, or too few runs
-  kBest,   // better than every other filter
-  kTied,   // the best, or not distinguishable from it
-  kWorse,  // than the best
+  kNone,       // not comparable: one filter, or a metric without better and worse
+  kTooFew,     // runs to judge by
+  kBest,       // better than every other filter
+  kTied,       // with the best: the difference is negligible, less than one in a hundred
+  kUndecided,  // it may be negligible, or not
+  kWorse,      // than the best
 };
 std::string_view to_string(Significance significance);
 
@@ -37,14 +39,18 @@ struct ComparisonRow {
   std::string object;      // empty: all objects of the regime
   Metric metric = Metric::kRmsePosition;
   std::string gains;                 // "g=0.5 h=0.2"
-  double mean = 0.0;                 // over the runs
-  std::optional<Interval> ci95;      // of the mean; absent with fewer than two runs
+  double mean = 0.0;                 // over the runs, as its metric is averaged
+  std::optional<Interval> ci95;      // of the mean; absent with too few runs to tell
+  double median = 0.0;               // of the runs
+  std::optional<Interval> median_ci95;  // absent with too few runs to tell
+  bool has_heavy_tails = false;      // few runs make most of the mean: the median is what counts
   std::optional<double> predicted;   // by the filter's closed forms
   std::optional<double> bound;       // about the least that a filter of fixed design can have
   std::int64_t runs = 0;             // in which the metric has a value
   std::optional<double> difference;  // to the best filter's mean; 0 for itself
   std::optional<Interval> difference_ci95;  // paired by runs; absent for the best itself
   Significance significance = Significance::kNone;
+  std::optional<double> runs_to_decide;       // where it is undecided: about so many would
 };
 
 /// RMSE of position over all objects of a regime, as it develops over the scene's time.
@@ -100,7 +106,7 @@ struct ComparedCell {
   std::string file;   // as given on the command line
   std::string sweep;  // "sensors[0].noise=0.3"; empty: the scene as it is
   std::int64_t runs = 0;
-  std::uint64_t seed = 0;            // of run 0; run k has seed + k
+  std::uint64_t seed = 0;            // of run 0
   double duration = 0.0;             // [s]
   double sigma = 0.0;                // of a detection per axis [m]
   double period = 0.0;               // between scans [s]

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -33,10 +34,6 @@ Json range(const std::optional<Interval>& interval) {
   return Json::array({number(interval->low), number(interval->high)});
 }
 
-std::string_view interval_kind(Metric metric) {
-  return info(metric).averaging.skewed ? "bootstrap" : "t";
-}
-
 Json row_json(const ComparisonRow& row, const Comparison& comparison) {
   const ComparedCell& cell = comparison.cells[row.cell];
   return {{"scene", cell.scene},
@@ -49,13 +46,17 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
           {"unit", info(row.metric).unit},
           {"mean", number(row.mean)},
           {"ci95", range(row.ci95)},
-          {"interval", interval_kind(row.metric)},
+          {"interval", interval_kind(info(row.metric).average)},
           {"predicted", number(row.predicted)},
           {"bound", number(row.bound)},
           {"runs", row.runs},
           {"difference", number(row.difference)},
           {"difference_ci95", range(row.difference_ci95)},
-          {"verdict", to_string(row.significance)}};
+          {"verdict", to_string(row.significance)},
+          {"runs_to_decide", number(row.runs_to_decide)},
+          {"median", number(row.median)},
+          {"median_ci95", range(row.median_ci95)},
+          {"heavy_tails", row.has_heavy_tails}};
 }
 
 Json curve_json(const ErrorCurve& curve, const Comparison& comparison) {
@@ -83,33 +84,71 @@ std::string title_of(const ComparedCell& cell) {
   return cell.sweep.empty() ? cell.scene : cell.scene + ", " + cell.sweep;
 }
 
-/// "0.123 ±0.004", and a star for a winner.
+/// "0.123 ±0.004 *": what one filter did, as the words above the table say.
 std::string cell_text(const ComparisonRow& row) {
-  std::string text = fmt::format("{:.3g}", row.mean);
-  if (row.ci95) text += fmt::format(" ±{:.1g}", 0.5 * (row.ci95->high - row.ci95->low));
-  if (row.significance == Significance::kBest) text += " *";
-  if (row.significance == Significance::kTied) text += " =";
+  std::string text = fmt::format("{:.3g}", row.has_heavy_tails ? row.median : row.mean);
+  if (row.has_heavy_tails) text += "~";
+  if (const auto& interval = row.has_heavy_tails ? row.median_ci95 : row.ci95) {
+    text += fmt::format(" ±{:.1g}", 0.5 * (interval->high - interval->low));
+  }
+  switch (row.significance) {
+    case Significance::kNone:
+    case Significance::kWorse:
+      return text;
+    case Significance::kTooFew:
+      return text + " few";
+    case Significance::kBest:
+      return text + " *";
+    case Significance::kTied:
+      return text + " =";
+    case Significance::kUndecided:
+      return text + " ?";
+  }
   return text;
+}
+
+/// "12": the percentage of its scans in which an object was not followed, if there are any.
+std::string lost_text(const ComparisonRow& tracked) {
+  const double lost = 100.0 * (1.0 - tracked.mean);
+  return lost < 0.05 ? "" : fmt::format("{:.2g}", lost);
+}
+
+/// How many runs would decide all that is undecided; nothing if all is decided.
+std::optional<double> runs_to_decide(const Comparison& comparison) {
+  std::optional<double> most;
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.metric != Metric::kRmsePosition || row.regime.empty() || !row.object.empty()) continue;
+    if (row.runs_to_decide) most = std::max(most.value_or(0.0), *row.runs_to_decide);
+  }
+  return most;
 }
 
 /// The row of a table: a regime as a whole in one cell.
 using TableKey = std::tuple<std::size_t, std::string>;
+using TableRows = std::map<TableKey, std::map<std::size_t, const ComparisonRow*>>;
+
+std::string lost_text_of(const TableRows& tracked, const TableKey& key, std::size_t filter) {
+  const auto line = tracked.find(key);
+  if (line == tracked.end() || !line->second.contains(filter)) return "";
+  return lost_text(*line->second.at(filter));
+}
 
 }  // namespace
 
 std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "scene,regime,object,filter,gains,metric,mean,ci95_low,ci95_high,predicted,runs,sweep,unit,"
-      "interval,bound,difference,difference_low,difference_high,verdict\n";
+      "interval,bound,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails\n";
   CsvRow line;
   for (const ComparisonRow& row : comparison.rows) {
     const ComparedCell& cell = comparison.cells[row.cell];
     line.clear();
     line << cell.scene << row.regime << row.object << comparison.filters[row.filter] << row.gains
          << info(row.metric).name << row.mean << low(row.ci95) << high(row.ci95) << row.predicted
-         << row.runs << cell.sweep << info(row.metric).unit << interval_kind(row.metric)
+         << row.runs << cell.sweep << info(row.metric).unit << interval_kind(info(row.metric).average)
          << row.bound << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
-         << to_string(row.significance);
+         << to_string(row.significance) << row.runs_to_decide << row.median
+         << low(row.median_ci95) << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "");
     line.end();
     text += line.text();
   }
@@ -125,14 +164,22 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
 }
 
 std::string to_table(const Comparison& comparison, std::size_t width) {
-  std::map<TableKey, std::map<std::size_t, const ComparisonRow*>> lines;
+  TableRows lines, tracked;
   for (const ComparisonRow& row : comparison.rows) {
-    if (row.metric != Metric::kRmsePosition || row.regime.empty() || !row.object.empty()) continue;
-    lines[{row.cell, row.regime}][row.filter] = &row;
+    if (row.regime.empty() || !row.object.empty()) continue;
+    if (row.metric == Metric::kRmsePosition) lines[{row.cell, row.regime}][row.filter] = &row;
+    if (row.metric == Metric::kTracked) tracked[{row.cell, row.regime}][row.filter] = &row;
   }
+  const auto loses = [&](std::size_t filter) {
+    return std::any_of(tracked.begin(), tracked.end(), [&](const auto& line) {
+      const auto found = line.second.find(filter);
+      return found != line.second.end() && !lost_text(*found->second).empty();
+    });
+  };
   std::vector<TextColumn> columns = {{"scene", 44, false}, {"regime", 12, false}};
-  for (const std::string& filter : comparison.filters) {
-    columns.push_back({printable(filter, 20), 20, true});
+  for (std::size_t i = 0; i < comparison.filters.size(); ++i) {
+    columns.push_back({printable(comparison.filters[i], 20), 20, true});
+    if (loses(i)) columns.push_back({"lost %", 6, true});
   }
   columns.push_back({"bound", 12, true});
   std::vector<std::vector<std::string>> table;
@@ -141,13 +188,21 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
     line = {title_of(comparison.cells[std::get<0>(key)]), std::get<1>(key)};
     for (std::size_t i = 0; i < comparison.filters.size(); ++i) {
       line.push_back(filters.contains(i) ? cell_text(*filters.at(i)) : "");
+      if (loses(i)) line.push_back(lost_text_of(tracked, key, i));
     }
     const std::optional<double>& bound = filters.begin()->second->bound;
     line.push_back(bound ? fmt::format("{:.3g}", *bound) : "");
   }
-  return "RMSE of position [m] ± half of its 95 % interval; * better than all others, = tied\n"
-         "with the best; bound: least error of a filter that knows which detection is whose\n\n" +
-         text_table(columns, table, {.width = width, .repeated = 2});
+  std::string text =
+      "RMSE of position [m] ± half of its 95 % interval. * better than all others, = within 1 % of\n"
+      "the best, ? undecided, few: too few runs to tell; ~ the median of the runs, where few may make\n"
+      "most of the mean. lost %: scans in which an object was not followed, which no RMSE counts.\n"
+      "bound: least error of a filter that knows which detection is whose\n\n" +
+      text_table(columns, table, {.width = width, .repeated = 2});
+  if (const auto runs = runs_to_decide(comparison)) {
+    text += fmt::format("About {:.0f} runs would decide what is undecided.\n", *runs);
+  }
+  return text;
 }
 
 }  // namespace ghtrack

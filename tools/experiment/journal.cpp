@@ -48,10 +48,7 @@ std::string meaning_of_numbers() {
   text += "by filter: by subject: values, predictions of ";
   for (const Metric metric : all_metrics()) {
     const MetricInfo& about = info(metric);
-    text += std::string(about.name) + " [" + std::string(about.unit) + "]";
-    if (about.averaging.mean_square) text += " mean square";
-    if (about.averaging.skewed) text += " skewed";
-    text += ", ";
+    text += std::string(about.name) + " [" + std::string(about.unit) + "], ";
   }
   return text + "by regime: curves of " + std::to_string(TrialLayout::kBins) + " bins\n";
 }

@@ -11,9 +11,6 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr Averaging kPlain = {};
-constexpr Averaging kRootMeanSquare = {.mean_square = true};
-constexpr Averaging kSkewed = {.skewed = true};
 
 using Value = std::optional<double> ObjectReport::*;
 using Count = std::int64_t ObjectReport::*;
@@ -80,13 +77,23 @@ double peak_error(const SubjectReport& s) {
   return peak;
 }
 
+/// An object that never settles counts with all of its time: it settles later, if at all.
 double settling_time(const SubjectReport& s) {
   Mean mean;
   for (const ObjectId id : s.objects) {
-    const auto& time = s.run.objects[static_cast<std::size_t>(id)].settling_time;
-    if (time) mean.add(*time);
+    const ObjectReport& object = s.run.objects[static_cast<std::size_t>(id)];
+    if (object.scans > 0) mean.add(object.settling_time.value_or(object.lifetime));
   }
   return or_nan(mean.value());
+}
+
+double settled(const SubjectReport& s) {
+  Mean share;
+  for (const ObjectId id : s.objects) {
+    const ObjectReport& object = s.run.objects[static_cast<std::size_t>(id)];
+    if (object.scans > 0) share.add(object.settling_time ? 1.0 : 0.0);
+  }
+  return or_nan(share.value());
 }
 
 double tracked(const SubjectReport& s) {
@@ -115,31 +122,34 @@ double false_tracks(const SubjectReport& s) { return of_scene(s, s.run.total.fal
 
 constexpr std::array<MetricInfo, kMetrics> kInfo = {{
     {"rmse_position", "RMSE of position", "m", "root mean square of the position's error",
-     Better::kLess, kRootMeanSquare, rmse_position, predicted_rmse},
+     Better::kLess, Average::kRootMeanSquare, rmse_position, predicted_rmse},
     {"rmse_velocity", "RMSE of velocity", "m/s", "root mean square of the velocity's error",
-     Better::kLess, kRootMeanSquare, rmse_velocity, predicted_velocity},
-    {"peak_error", "Peak error", "m", "largest error of the position", Better::kLess, kSkewed,
-     peak_error},
+     Better::kLess, Average::kRootMeanSquare, rmse_velocity, predicted_velocity},
+    {"peak_error", "Peak error", "m", "largest error of the position", Better::kLess,
+     Average::kPositiveMean, peak_error},
     {"settling_time", "Settling time", "s",
      "from the first scan of an object until ten errors in a row are below two sigmas of a "
-     "detection",
-     Better::kLess, kSkewed, settling_time},
-    {"lag", "Lag", "m", "mean of truth minus estimate along the velocity", Better::kNeither, kPlain,
-     lag, predicted_lag},
+     "detection; to its last scan if they never are; median over the runs",
+     Better::kLess, Average::kMedian, settling_time},
+    {"settled", "Settled", "1", "share of the objects that settle at all", Better::kMore,
+     Average::kShare, settled},
+    {"lag", "Lag", "m", "mean of truth minus estimate along the velocity", Better::kNeither,
+     Average::kMean, lag, predicted_lag},
     {"mai", "Mean absolute innovation", "m", "mean length of the residual", Better::kNeither,
-     kPlain, mai, predicted_mai},
+     Average::kPositiveMean, mai, predicted_mai},
     {"nis", "NIS", "1", "mean normalised innovation squared; 2 if the filter is consistent",
-     Better::kNeither, kPlain, nis, predicted_nis},
+     Better::kNeither, Average::kPositiveMean, nis, predicted_nis},
     {"tracked", "Tracked", "1", "share of the scans in which the object was followed",
-     Better::kMore, kSkewed, tracked},
-    {"track_losses", "Track losses", "1", "times that an object's track ended or was replaced",
-     Better::kLess, kSkewed, track_losses},
+     Better::kMore, Average::kShare, tracked},
+    {"track_losses", "Track losses", "1",
+     "times that an object's track ended, lost it or was replaced", Better::kLess,
+     Average::kCount, track_losses},
     {"gospa", "GOSPA", "m", "mean distance between the sets of objects and of tracks",
-     Better::kLess, kPlain, gospa_of_scene},
+     Better::kLess, Average::kPositiveMean, gospa_of_scene},
     {"id_switches", "ID switches", "1", "times that an object's identity changed", Better::kLess,
-     kSkewed, id_switches},
+     Average::kCount, id_switches},
     {"false_tracks", "False tracks", "1", "mean number of tracks that follow nothing, per scan",
-     Better::kLess, kSkewed, false_tracks},
+     Better::kLess, Average::kRate, false_tracks},
 }};
 static_assert(kInfo.back().value != nullptr, "every metric needs an entry");
 

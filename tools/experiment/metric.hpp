@@ -16,12 +16,13 @@ enum class Metric {
   kRmsePosition,  // √ mean |e|² [m]
   kRmseVelocity,  // [m/s]
   kPeakError,     // max |e| [m]
-  kSettlingTime,  // from the object's first scan until its error first stays small [s]
+  kSettlingTime,  // from an object's first scan until its error first stays small, or to its last [s]
+  kSettled,       // share of the objects whose error ever stays small
   kLag,           // mean of (truth − estimate) along the velocity [m]
   kMai,           // mean absolute innovation [m]
   kNis,           // mean normalised innovation squared; 2 if the filter is consistent
   kTracked,       // share of its scans in which an object was followed
-  kTrackLosses,   // times that the track of an object ended or was replaced
+  kTrackLosses,   // times that the track of an object ended, lost it or was replaced
   kGospa,         // mean over the scans [m]; of the scene as a whole
   kIdSwitches,    // of the scene as a whole
   kFalseTracks,   // mean over the scans; of the scene as a whole
@@ -46,7 +47,7 @@ struct MetricInfo {
   std::string_view unit;     // "m"; "1" for pure numbers
   std::string_view meaning;  // one clause
   Better better = Better::kLess;
-  Averaging averaging = {};
+  Average average = Average::kMean;  // over the runs
   double (*value)(const SubjectReport&) = nullptr;      // of a run; NaN if it did not occur
   double (*predicted)(const SubjectReport&) = nullptr;  // by closed forms; null: there are none
 };

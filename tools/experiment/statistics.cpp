@@ -2,71 +2,194 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
-#include <utility>
 #include <vector>
-
-#include "sim/random.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr std::uint64_t kResamples = 2000;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kConfidence = 0.96;  // of Student's intervals, for 95 %: see Average
+constexpr double kMedianSlack = 0.02;            // five runs hold the median with 93.75 %
+constexpr double kNormal95 = 1.959963984540054;  // two-sided quantile of the normal distribution
 
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// mean ± t s / √n
-Interval student_interval(std::span<const double> values, double confidence) {
+/// Unbiased; requires two values.
+double variance(std::span<const double> values) {
   const double centre = mean(values);
   double scatter = 0.0;
   for (const double value : values) scatter += (value - centre) * (value - centre);
-  const auto degrees = static_cast<std::int64_t>(values.size()) - 1;
-  const double error =
-      std::sqrt(scatter / static_cast<double>(degrees) / static_cast<double>(values.size()));
-  const double half = error * student_quantile(0.5 + 0.5 * confidence, degrees);
-  return {centre - half, centre + half};
+  return scatter / static_cast<double>(values.size() - 1);
 }
 
-/// The middle `confidence` of a statistic over resampled runs.
-Interval bootstrap_interval(std::size_t runs, double confidence,
-                            const std::function<double(std::span<const std::size_t>)>& statistic) {
-  std::vector<double> outcomes;
-  std::vector<std::size_t> chosen(runs);
-  for (std::uint64_t i = 0; i < kResamples; ++i) {
-    Stream stream(0, Purpose::kResampling, 0, i);
-    for (std::size_t& index : chosen) {
-      index = static_cast<std::size_t>(stream.uniform() * static_cast<double>(runs));
-    }
-    outcomes.push_back(statistic(chosen));
-  }
-  return {sample_quantile(outcomes, 0.5 - 0.5 * confidence),
-          sample_quantile(outcomes, 0.5 + 0.5 * confidence)};
+/// t s / √n.
+double student_half_width(std::span<const double> values, double confidence) {
+  const auto count = static_cast<double>(values.size());
+  return student_quantile(0.5 + 0.5 * confidence, std::ssize(values) - 1) *
+         std::sqrt(variance(values) / count);
 }
 
-double mean_at(std::span<const double> values, std::span<const std::size_t> chosen) {
+double square(double value) { return value * value; }
+
+double root(double value) { return std::sqrt(std::max(0.0, value)); }
+
+/// P(X ≤ k) of n fair coins.
+double coin_probability(std::int64_t k, std::int64_t n) {
+  double term = std::pow(0.5, static_cast<double>(n));
   double sum = 0.0;
-  for (const std::size_t index : chosen) sum += values[index];
-  return sum / static_cast<double>(chosen.size());
+  for (std::int64_t i = 0; i <= k; ++i) {
+    sum += term;
+    term *= static_cast<double>(n - i) / static_cast<double>(i + 1);
+  }
+  return sum;
 }
 
-bool all_equal(std::span<const double> values) {
-  return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+/// Between the order statistics that enclose the median with this confidence, interpolated
+/// (Hettmansperger & Sheather 1986); of few values between the extremes, which five hold with 94 %.
+/// Absent if even they lack more than `slack` of it.
+std::optional<Interval> median_interval(std::vector<double> values, double confidence,
+                                        double slack) {
+  std::sort(values.begin(), values.end());
+  const std::int64_t n = std::ssize(values);
+  const auto held = [&](std::int64_t d) { return 1.0 - 2.0 * coin_probability(d - 1, n); };
+  if (held(1) < confidence - slack) return std::nullopt;
+  std::int64_t d = 1;
+  while (2 * (d + 1) <= n && held(d + 1) >= confidence) ++d;
+  double share = 0.0;
+  if (held(d) > confidence && 2 * (d + 1) <= n) {
+    const double part = (held(d) - confidence) / (held(d) - held(d + 1));
+    const auto inner = static_cast<double>(n - d) * part;
+    share = inner / (static_cast<double>(d) + static_cast<double>(n - 2 * d) * part);
+  }
+  const auto at = [&](std::int64_t place) { return values[static_cast<std::size_t>(place)]; };
+  return Interval{std::lerp(at(d - 1), at(d), share), std::lerp(at(n - d), at(n - d - 1), share)};
 }
 
-double as_averaged(double value, const Averaging& averaging) {
-  return averaging.mean_square ? value * value : value;
+/// Of a Poisson mean by the score, (m − μ)² = q² φ μ / n, with φ the runs' variance over their mean.
+/// Where it is below 1, counts are too few to tell, or no more than Poisson's.
+Interval count_interval(std::span<const double> counts) {
+  constexpr double kTelling = 20.0;       // counts in all, from which on φ may be below 1
+  constexpr double kLeastScatter = 0.05;  // φ where all runs agree
+  const auto runs = static_cast<double>(counts.size());
+  const double m = mean(counts);
+  const double scatter = m > 0.0 ? variance(counts) / m : 1.0;
+  const double least = m * runs < kTelling ? 1.0 : kLeastScatter;
+  const bool is_poisson = scatter <= least;
+  const double q = is_poisson ? kNormal95 : student_quantile(0.975, std::ssize(counts) - 1);
+  const double half = 0.5 * q * q * std::max(least, scatter) / runs;
+  const double width = std::sqrt(2.0 * half * m + half * half);
+  return {std::max(0.0, m + half - width), m + half + width};
 }
 
-double as_told(double mean, const Averaging& averaging) {
-  return averaging.mean_square ? std::sqrt(std::max(0.0, mean)) : mean;
+/// The interval of a mean, on the scale of the logarithm where it cannot be negative.
+Interval mean_interval(std::span<const double> values, bool is_positive) {
+  const double m = mean(values);
+  const double half = student_half_width(values, kConfidence);
+  if (!is_positive || !(m > 0.0)) return {m - half, m + half};
+  const double factor = std::exp(half / m);
+  return {m / factor, m * factor};
+}
+
+/// Of a mean that is zero in some runs by the score, with the runs' own scatter.
+Interval rate_interval(std::span<const double> rates) {
+  if (*std::min_element(rates.begin(), rates.end()) > 0.0) return mean_interval(rates, true);
+  const auto runs = static_cast<double>(rates.size());
+  const double m = mean(rates);
+  if (!(m > 0.0)) return {0.0, square(kNormal95) / runs};
+  const double q = student_quantile(0.5 + 0.5 * kConfidence, std::ssize(rates) - 1);
+  const double half = 0.5 * q * q * variance(rates) / m / runs;
+  const double width = std::sqrt(2.0 * half * m + half * half);
+  return {std::max(0.0, m + half - width), m + half + width};
+}
+
+/// Wilson's, with as many trials as give the runs' scatter, n_e = n p (1 − p) / s²; where these are
+/// many, Student's of the log odds.
+Interval share_interval(std::span<const double> shares) {
+  constexpr double kMany = 4.0;  // trials that a run is worth
+  const auto runs = static_cast<double>(shares.size());
+  const double p = mean(shares);
+  const double scatter = variance(shares);
+  const bool differ = scatter > 1e-18;  // more than by rounding
+  const double trials = differ ? std::max(runs, runs * p * (1.0 - p) / scatter) : runs;
+  if (trials > kMany * runs) {
+    const double odds = p / (1.0 - p);
+    const double factor = std::exp(student_half_width(shares, kConfidence) / (p * (1.0 - p)));
+    return {odds / (odds + factor), odds * factor / (1.0 + odds * factor)};
+  }
+  const double q = differ ? student_quantile(0.975, std::ssize(shares) - 1) : kNormal95;
+  const double z = q * q / trials;
+  const double centre = (p + 0.5 * z) / (1.0 + z);
+  const double half = std::sqrt(z * p * (1.0 - p) + 0.25 * z * z) / (1.0 + z);
+  return {std::max(0.0, centre - half), std::min(1.0, centre + half)};
+}
+
+/// One value is so far out that it makes much of the mean: more than twenty times as far above the
+/// median as the lower quarter is below it.
+bool has_heavy_tails(std::span<const double> values) {
+  constexpr double kFar = 20.0;
+  const double centre = sample_quantile(values, 0.5);
+  const double spread = centre - sample_quantile(values, 0.25);
+  const double farthest = *std::max_element(values.begin(), values.end());
+  return farthest - centre > kFar * spread && farthest > 1.5 * centre;
+}
+
+std::optional<Interval> interval_of(std::span<const double> values, Average average) {
+  if (std::ssize(values) < kFewestRuns) return std::nullopt;
+  switch (average) {
+    case Average::kMedian:
+      return median_interval({values.begin(), values.end()}, 0.95, kMedianSlack);
+    case Average::kRate:
+      return rate_interval(values);
+    case Average::kCount:
+      return count_interval(values);
+    case Average::kShare:
+      return share_interval(values);
+    case Average::kMean:
+      return mean_interval(values, false);
+    case Average::kPositiveMean:
+    case Average::kRootMeanSquare:
+      break;
+  }
+  const Interval interval = mean_interval(values, true);
+  if (average == Average::kPositiveMean) return interval;
+  return Interval{root(interval.low), root(interval.high)};
+}
+
+double average_of(std::span<const double> values, Average average) {
+  if (average == Average::kMedian) return sample_quantile(values, 0.5);
+  return average == Average::kRootMeanSquare ? root(mean(values)) : mean(values);
+}
+
+/// Do so many runs that differ suffice for their signs to tell?
+bool signs_can_tell(std::int64_t differing, double confidence) {
+  return std::pow(0.5, static_cast<double>(differing - 1)) <= 1.0 - confidence;
 }
 
 }  // namespace
+
+std::string_view interval_kind(Average average) {
+  switch (average) {
+    case Average::kMean:
+      return "t";
+    case Average::kPositiveMean:
+    case Average::kRootMeanSquare:
+      return "log-t";
+    case Average::kMedian:
+      return "order statistics";
+    case Average::kCount:
+      return "score";
+    case Average::kRate:
+      return "rate";
+    case Average::kShare:
+      return "wilson";
+  }
+  return "";
+}
 
 double sample_quantile(std::span<const double> values, double share) {
   std::vector<double> sorted;
@@ -80,59 +203,79 @@ double sample_quantile(std::span<const double> values, double share) {
   return std::lerp(sorted[below], sorted[above], place - std::floor(place));
 }
 
-SampleMean mean_of(std::span<const double> values, const Averaging& averaging) {
+SampleMean mean_of(std::span<const double> values, Average average) {
   std::vector<double> known;
   for (const double value : values) {
-    if (!std::isnan(value)) known.push_back(as_averaged(value, averaging));
+    if (std::isnan(value)) continue;
+    known.push_back(average == Average::kRootMeanSquare ? square(value) : value);
   }
-  SampleMean result{
-      .mean = kNothing, .ci95 = {}, .values = static_cast<std::int64_t>(known.size())};
+  SampleMean result{.mean = kNothing,
+                    .ci95 = {},
+                    .values = std::ssize(known),
+                    .median = sample_quantile(values, 0.5),
+                    .median_ci95 = {}};
   if (known.empty()) return result;
-  result.mean = as_told(mean(known), averaging);
-  if (known.size() < 2) return result;
-  const auto statistic = [&](std::span<const std::size_t> chosen) {
-    return mean_at(known, chosen);
-  };
-  const Interval interval = averaging.skewed && !all_equal(known)
-                                ? bootstrap_interval(known.size(), 0.95, statistic)
-                                : student_interval(known, 0.95);
-  result.ci95 = {as_told(interval.low, averaging), as_told(interval.high, averaging)};
+  result.mean = average_of(known, average);
+  result.ci95 = interval_of(known, average);
+  const bool is_skewable = average == Average::kRootMeanSquare || average == Average::kPositiveMean;
+  if (result.values < kFewestRuns) return result;
+  result.median_ci95 = median_interval(known, 0.95, kMedianSlack);
+  if (average == Average::kRootMeanSquare) {
+    result.median_ci95 = Interval{root(result.median_ci95->low), root(result.median_ci95->high)};
+  }
+  result.has_heavy_tails = is_skewable && has_heavy_tails(known);
   return result;
 }
 
 PairedDifference paired_difference(std::span<const double> a, std::span<const double> b,
-                                   const Averaging& averaging, double confidence) {
-  std::vector<double> left, right;
+                                   Average average, double confidence) {
+  const bool is_square = average == Average::kRootMeanSquare;
+  std::vector<double> differences;
+  double left = 0.0, right = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (std::isnan(a[i]) || std::isnan(b[i])) continue;
-    left.push_back(as_averaged(a[i], averaging));
-    right.push_back(as_averaged(b[i], averaging));
+    left += is_square ? square(a[i]) : a[i];
+    right += is_square ? square(b[i]) : b[i];
+    differences.push_back(is_square ? square(a[i]) - square(b[i]) : a[i] - b[i]);
   }
-  PairedDifference result{.value = kNothing, .interval = {}};
-  if (left.empty()) return result;
-  const double left_told = as_told(mean(left), averaging);
-  const double right_told = as_told(mean(right), averaging);
-  result.value = left_told - right_told;
-  if (left.size() < 2) return result;
-
-  // √ā − √b̄ is linear in the runs' squares near the means: d = a / (2 √ā) − b / (2 √b̄).
-  const auto slope = [&](double told) {
-    if (!averaging.mean_square) return 1.0;
-    return told > 0.0 ? 0.5 / told : 0.0;
-  };
-  std::vector<double> differences;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    differences.push_back(slope(left_told) * left[i] - slope(right_told) * right[i]);
+  PairedDifference result{.value = kNothing, .interval = {}, .pairs = std::ssize(differences)};
+  if (differences.empty()) return result;
+  // √ā − √b̄ = (ā − b̄) / (√ā + √b̄): but for a factor the mean of the differences of squares.
+  double scale = 1.0;
+  if (is_square) {
+    const auto pairs = static_cast<double>(result.pairs);
+    scale = std::sqrt(left / pairs) + std::sqrt(right / pairs);
+    if (!(scale > 0.0)) scale = 1.0;
   }
-  const double centre = mean(differences);
-  const auto statistic = [&](std::span<const std::size_t> chosen) {
-    return mean_at(differences, chosen);
-  };
-  const Interval around = averaging.skewed && !all_equal(differences)
-                              ? bootstrap_interval(differences.size(), confidence, statistic)
-                              : student_interval(differences, confidence);
-  result.interval = {result.value + around.low - centre, result.value + around.high - centre};
+  result.value = (average == Average::kMedian ? sample_quantile(differences, 0.5)
+                                              : mean(differences)) / scale;
+  if (result.pairs < kFewestRuns) return result;
+  if (average == Average::kMedian) {
+    result.interval = median_interval(differences, confidence, 0.0);
+    return result;
+  }
+  const double half = student_half_width(differences, confidence) / scale;
+  result.interval = Interval{result.value - half, result.value + half};
+  const bool is_rare = average == Average::kCount || average == Average::kRate ||
+                       average == Average::kShare;
+  const auto differing =
+      std::count_if(differences.begin(), differences.end(), [](double d) { return d != 0.0; });
+  if (is_rare && differing > 0 && !signs_can_tell(differing, confidence)) {
+    result.interval->low = std::min(result.interval->low, 0.0);
+    result.interval->high = std::max(result.interval->high, 0.0);
+  }
   return result;
+}
+
+double runs_to_decide(const PairedDifference& difference, double negligible) {
+  constexpr double kMost = 1e9;
+  const auto runs = static_cast<double>(difference.pairs);
+  if (!difference.interval) return std::max(2.0 * runs, static_cast<double>(kFewestRuns));
+  const double half = 0.5 * (difference.interval->high - difference.interval->low);
+  const double distance =
+      std::max(std::abs(difference.value), negligible - std::abs(difference.value));
+  const double needed = distance > 0.0 ? runs * square(half / distance) : kMost;
+  return std::ceil(std::clamp(needed, runs + 1.0, kMost));
 }
 
 }  // namespace ghtrack

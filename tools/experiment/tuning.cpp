@@ -18,7 +18,6 @@ namespace ghtrack {
 namespace {
 
 constexpr std::size_t kMostScans = 200'000;  // that one evaluation goes through, of all regimes
-constexpr Averaging kRootMeanSquare = {.mean_square = true};
 
 /// One regime's objects in several runs.
 using Runs = std::vector<std::vector<LabelledObject>>;
@@ -140,8 +139,8 @@ class RegimeTuner {
 
   JudgedGains judge(const Candidate& candidate, const std::vector<double>& winner) const {
     const std::vector<double> rmse = rmse_of_runs(candidate.filter, judging_);
-    const SampleMean mean = mean_of(rmse, kRootMeanSquare);
-    const PairedDifference difference = paired_difference(rmse, winner, kRootMeanSquare, 0.95);
+    const SampleMean mean = mean_of(rmse, Average::kRootMeanSquare);
+    const PairedDifference difference = paired_difference(rmse, winner, Average::kRootMeanSquare, 0.95);
     const bool several = std::holds_alternative<MultipleModelFilter>(candidate.filter);
     return {.origin = candidate.origin,
             .filter = several ? "multiple-model" : std::string(name(candidate.filter)),
@@ -194,8 +193,8 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
     }
   }
   const Trial trial(scene, on_step);
-  const Runs training = labelled_runs(trial, 0, options);
-  const Runs judging = labelled_runs(trial, options.runs, options);
+  const Runs training = labelled_runs(trial, kFirstTuningRun, options);
+  const Runs judging = labelled_runs(trial, kFirstJudgingRun, options);
   std::vector<RunTruth> truths;
   for (int run = 0; run < theory_runs(scene); ++run) truths.push_back(trial.truth_of(run, true));
   const std::vector<SubjectTheory> theory = theory_of(trial, truths, options.jobs);

@@ -52,8 +52,8 @@ struct Tuning {
   std::vector<GainSurface> surfaces;
 };
 
-/// Tunes gains for every regime of a scene. Runs 0 to N − 1 are for finding, N to 2N − 1 for
-/// judging. What is minimised is the mean squared error of position from an object's third
+/// Tunes gains for every regime of a scene, on runs of which no campaign is made, and judges them on
+/// others still. What is minimised is the mean squared error of position from an object's third
 /// detection on; a table of least-squares gains serves the start, as in a tracker.
 /// @param on_step  called again and again by all threads; may throw to give up
 /// @throws std::invalid_argument for a rule that has no family of gains

@@ -79,19 +79,56 @@ void RunMetrics::add_tracks(const StepRecord& record) {
     const auto object = static_cast<std::size_t>(truth.id);
     ObjectTally& tally = tallies_.at(object);
     if (tally.scans == 0) tally.first_time = record.truth.time;
+    tally.last_time = record.truth.time;
     ++tally.scans;
     if (chosen[object]) {
-      const TrackEstimate& track = record.tracks.tracks[*chosen[object]];
-      score_object(truth, track, record.truth.time);
-      if (used_object(track, record.observation) == truth.id) {
-        ++tally.detections_used;
-      }
+      follow(truth, record.tracks.tracks[*chosen[object]], record);
     } else {
-      if (tally.followed) ++tally.track_losses;
-      if (tally.calm_scans < kCalmScans) tally.calm_scans = 0;
+      lose(tally);
     }
-    tally.followed = chosen[object].has_value();
   }
+}
+
+/// Scores a track in a scan, unless it has lost its object.
+void RunMetrics::follow(const TruthState& truth, const TrackEstimate& track,
+                        const StepRecord& record) {
+  ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
+  if (tally.track && tally.track != track.id) {
+    ++tally.track_changes;
+    lose(tally);
+  }
+  tally.track = track.id;
+
+  const std::vector<ObjectId>& origins = record.observation.origins;
+  const bool is_used = used_object(track, record.observation) == truth.id;
+  const bool is_detected = std::find(origins.begin(), origins.end(), truth.id) != origins.end();
+  if (is_used) {
+    count_doubtful(tally);
+    tally.ignored = 0;
+  } else if (is_detected) {
+    ++tally.ignored;
+  }
+  if (tally.ignored >= kLost) {
+    lose(tally);
+    return;
+  }
+  tally.followed = true;
+  ScanScore score = score_of(truth, track, record.truth.time);
+  score.uses_detection = is_used;
+  latest_errors_[static_cast<std::size_t>(truth.id)] = score.error;
+  if (tally.ignored == 0) {
+    count(tally, score);
+  } else {
+    tally.doubtful.push_back(std::move(score));
+  }
+}
+
+/// What the track has said since it last used a detection was said of something else.
+void RunMetrics::lose(ObjectTally& tally) const {
+  if (tally.followed) ++tally.track_losses;
+  tally.followed = false;
+  tally.doubtful.clear();
+  if (tally.calm_scans < kCalmScans) tally.calm_scans = 0;
 }
 
 void RunMetrics::score_sets(const StepRecord& record) {
@@ -140,75 +177,99 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
   return chosen;
 }
 
-void RunMetrics::score_object(const TruthState& truth, const TrackEstimate& track, double time) {
-  ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
-  if (tally.track && tally.track != track.id) {
-    ++tally.track_changes;
-    if (tally.followed) ++tally.track_losses;
-  }
-  tally.track = track.id;
-
-  const Vec2 error = track.position - truth.position;
-  latest_errors_[static_cast<std::size_t>(truth.id)] = error;
-  tally.peak_error = std::max(tally.peak_error, error.norm());
-  watch_settling(tally, error.norm(), time);
-  tally.squared_error.add(error.squaredNorm());
-  tally.error += error;
-  tally.squared_velocity_error += (track.velocity - truth.velocity).squaredNorm();
-
-  tally.predicted_square += track.noise_sigma.squaredNorm();
+RunMetrics::ScanScore RunMetrics::score_of(const TruthState& truth, const TrackEstimate& track,
+                                           double time) const {
+  ScanScore score{.time = time,
+                  .error = track.position - truth.position,
+                  .squared_velocity_error = (track.velocity - truth.velocity).squaredNorm(),
+                  .predicted_square = track.noise_sigma.squaredNorm(),
+                  .expected = expected_of(truth, track),
+                  .floor_square = floor_ ? floor_->squared_errors(truth.id) : std::nullopt,
+                  .filter = track.filter,
+                  .gains = track.gains};
   if (const double speed = truth.velocity.norm(); speed > 0.0) {
-    tally.lag -= error.dot(truth.velocity) / speed;
+    score.lag = -score.error.dot(truth.velocity) / speed;
   }
-  if (track.designed) add_expected_lag(tally, truth, track);
-  if (const auto squares = floor_ ? floor_->squared_errors(truth.id) : std::nullopt) {
-    for (std::size_t i = 0; i < squares->size(); ++i) tally.floor_square[i] += (*squares)[i];
-    ++tally.floor_count;
+  if (score.expected) {
+    score.predicted_square += following_.lag_of(track.id).position.squaredNorm();
   }
   if (track.covariance.determinant() > 0.0) {
-    tally.nees.add(error.dot(track.covariance.inverse() * error));
+    score.nees = score.error.dot(track.covariance.inverse() * score.error);
   }
-  if (track.residual) {
-    const Vec2& residual = *track.residual;
-    tally.innovation += residual.norm();
-    ++tally.innovations;
-    if (track.innovation_covariance.determinant() > 0.0) {
-      tally.nis += residual.dot(track.innovation_covariance.inverse() * residual);
-      ++tally.nis_count;
+  if (!track.residual) return score;
+  const Vec2& residual = *track.residual;
+  score.innovation = residual.norm();
+  if (track.innovation_covariance.determinant() > 0.0) {
+    score.nis = residual.dot(track.innovation_covariance.inverse() * residual);
+  }
+  return score;
+}
+
+/// The length of a residual whose two components have the lag m and the standard deviation s is
+/// about √(|m|² + π s² / 2), exact without lag (Rayleigh) and without noise.
+std::optional<RunMetrics::ScanScore::Expected> RunMetrics::expected_of(
+    const TruthState& truth, const TrackEstimate& track) const {
+  if (!track.designed) return std::nullopt;
+  const ExpectedLag::Value& lag = following_.lag_of(track.id);
+  ScanScore::Expected expected{.velocity_square = track.designed->noise_velocity.squaredNorm() +
+                                                  lag.velocity.squaredNorm()};
+  if (const double speed = truth.velocity.norm(); speed > 0.0) {
+    expected.lag = lag.position.dot(truth.velocity) / speed;
+  }
+  if (track.residual && track.gains.order >= 1 && is_stable(track.gains)) {
+    const double variance = innovation_variance(track.gains, options_.sigma, options_.period);
+    expected.innovation =
+        std::sqrt(lag.prediction.squaredNorm() + 0.5 * std::numbers::pi * variance);
+  }
+  return expected;
+}
+
+void RunMetrics::count(ObjectTally& tally, const ScanScore& score) const {
+  tally.detections_used += score.uses_detection ? 1 : 0;
+  tally.squared_error.add(score.error.squaredNorm());
+  tally.error += score.error;
+  tally.peak_error = std::max(tally.peak_error, score.error.norm());
+  watch_settling(tally, score.error.norm(), score.time);
+  tally.squared_velocity_error += score.squared_velocity_error;
+  tally.lag += score.lag.value_or(0.0);
+  tally.predicted_square += score.predicted_square;
+  if (score.expected) {
+    tally.predicted_velocity_square += score.expected->velocity_square;
+    tally.predicted_lag += score.expected->lag.value_or(0.0);
+    ++tally.expected_lags;
+    if (score.expected->innovation) {
+      tally.predicted_innovation += *score.expected->innovation;
+      ++tally.predicted_innovations;
     }
   }
-
+  if (score.floor_square) {
+    for (std::size_t i = 0; i < score.floor_square->size(); ++i) {
+      tally.floor_square[i] += (*score.floor_square)[i];
+    }
+    ++tally.floor_count;
+  }
+  if (score.nees) tally.nees.add(*score.nees);
+  if (score.innovation) {
+    tally.innovation += *score.innovation;
+    ++tally.innovations;
+  }
+  if (score.nis) {
+    tally.nis += *score.nis;
+    ++tally.nis_count;
+  }
   const auto usage = std::find_if(tally.usage.begin(), tally.usage.end(), [&](const Usage& u) {
-    return u.filter == track.filter && u.gains == track.gains;
+    return u.filter == score.filter && u.gains == score.gains;
   });
   if (usage == tally.usage.end()) {
-    tally.usage.push_back({track.filter, track.gains, 1});
+    tally.usage.push_back({score.filter, score.gains, 1});
   } else {
     ++usage->scans;
   }
 }
 
-void RunMetrics::add_expected_lag(ObjectTally& tally, const TruthState& truth,
-                                  const TrackEstimate& track) const {
-  const ExpectedLag::Value& lag = following_.lag_of(track.id);
-  tally.predicted_square += lag.position.squaredNorm();
-  tally.predicted_velocity_square +=
-      track.designed->noise_velocity.squaredNorm() + lag.velocity.squaredNorm();
-  ++tally.expected_lags;
-  if (track.residual) add_expected_innovation(tally, lag.prediction, track.gains);
-  if (const double speed = truth.velocity.norm(); speed > 0.0) {
-    tally.predicted_lag += lag.position.dot(truth.velocity) / speed;
-  }
-}
-
-/// The length of a residual whose two components have the lag m and the standard deviation s: about
-/// √(|m|² + π s² / 2), exact without lag (Rayleigh) and without noise.
-void RunMetrics::add_expected_innovation(ObjectTally& tally, const Vec2& lag,
-                                         const Gains& gains) const {
-  if (gains.order < 1 || !is_stable(gains)) return;
-  const double variance = innovation_variance(gains, options_.sigma, options_.period);
-  tally.predicted_innovation += std::sqrt(lag.squaredNorm() + 0.5 * std::numbers::pi * variance);
-  ++tally.predicted_innovations;
+void RunMetrics::count_doubtful(ObjectTally& tally) const {
+  for (const ScanScore& score : tally.doubtful) count(tally, score);
+  tally.doubtful.clear();
 }
 
 void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) const {
@@ -223,6 +284,7 @@ void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) c
 
 ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& tally) const {
   ObjectReport report;
+  report.lifetime = tally.last_time - tally.first_time;
   report.id = object.id;
   report.name = object.name;
   report.regime = object.regime;
@@ -287,7 +349,8 @@ RunReport RunMetrics::report() const {
   double error = 0.0, velocity = 0.0, measurement = 0.0, predicted = 0.0, innovation = 0.0;
   std::int64_t tracked = 0, detections = 0, innovations = 0;
   for (const ObjectInfo& object : objects_) {
-    const ObjectTally& tally = tallies_[static_cast<std::size_t>(object.id)];
+    ObjectTally tally = tallies_[static_cast<std::size_t>(object.id)];
+    count_doubtful(tally);
     report.objects.push_back(report_of(object, tally));
     if (const std::int64_t count = tally.squared_error.count(); count > 0) {
       error += tally.squared_error.mean() * static_cast<double>(count);

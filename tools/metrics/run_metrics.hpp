@@ -36,8 +36,10 @@ struct RunMetricsOptions {
 RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors);
 
 /// How well one object was followed. Errors are estimate minus truth, of the confirmed or coasting
-/// track that follows the object: the one that last used a detection made by it. Values that need
-/// data which did not occur are absent.
+/// track that follows the object: the one that last used a detection made by it. A track that lets
+/// RunMetrics::kLost detections of its object in a row go by has lost it when it last used one: what
+/// it says from then on is no error but a loss, and counts as such alone. Values that need data
+/// which did not occur are absent.
 struct ObjectReport {
   ObjectId id = 0;
   std::string name;
@@ -45,12 +47,12 @@ struct ObjectReport {
   std::string filter;  // that led most of the time; empty if no track followed
   std::string gains;
   std::int64_t scans = 0;                      // in which the object existed
-  std::int64_t tracked = 0;                    // … and a track followed it
+  std::int64_t tracked = 0;                    // … and a track followed it, not lost
   std::int64_t detections = 0;                 // made by it
   std::int64_t detections_used = 0;            // scans in which its track used one of them
   std::int64_t detections_missed = 0;          // the other scans
   std::int64_t track_changes = 0;              // times that another track took over
-  std::int64_t track_losses = 0;               // times that its track ended or was replaced
+  std::int64_t track_losses = 0;               // times that its track ended, lost it or was replaced
   std::optional<double> rmse_position;         // √ mean |e|² [m]
   std::optional<Interval> rmse_position_ci95;  // 95 % confidence
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
@@ -62,7 +64,8 @@ struct ObjectReport {
   std::optional<double> peak_error;            // max |e| [m]
   std::optional<double> lag;                   // mean of −e along the velocity [m]
   std::optional<double> predicted_lag;         // the same of the expected lag [m]
-  std::optional<double> settling_time;         // see RunMetrics::kCalmScans [s]
+  std::optional<double> settling_time;         // see RunMetrics::kCalmScans; absent: never [s]
+  double lifetime = 0.0;                       // from its first scan to its last [s]
   std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
   std::optional<double> predicted_mai;         // its prediction, of designed gains [m]
   std::optional<double> nees;                  // mean of eᵀ P⁻¹ e; 2 if consistent
@@ -102,6 +105,9 @@ class RunMetrics final : public RunObserver {
   /// sensor's 1-sigma noise.
   static constexpr int kCalmScans = 10;
 
+  /// Detections of an object in a row that its track does not use until it has lost the object.
+  static constexpr int kLost = 3;
+
   /// @param contender  whom to score
   RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options,
              std::size_t contender = 0);
@@ -124,6 +130,28 @@ class RunMetrics final : public RunObserver {
     std::int64_t scans = 0;
   };
 
+  /// What a scan in which a track follows an object adds to the sums.
+  struct ScanScore {
+    double time = 0.0;
+    Vec2 error = Vec2::Zero();
+    double squared_velocity_error = 0.0;
+    std::optional<double> lag = {};  // where the object moves
+    double predicted_square = 0.0;  // variance and squared lag
+    struct Expected {
+      double velocity_square = 0.0;  // variance and squared lag
+      std::optional<double> lag = {};  // along the motion
+      std::optional<double> innovation = {};
+    };
+    std::optional<Expected> expected = {};
+    std::optional<FloorFilters::Values> floor_square = {};
+    std::optional<double> nees = {};
+    std::optional<double> innovation = {};
+    std::optional<double> nis = {};
+    bool uses_detection = false;  // of the object
+    std::string filter;
+    Gains gains;
+  };
+
   /// Sums over the scans of one object.
   struct ObjectTally {
     std::int64_t scans = 0;
@@ -133,21 +161,24 @@ class RunMetrics final : public RunObserver {
     std::int64_t track_losses = 0;
     std::optional<int> track;  // that follows the object, or did last
     bool followed = false;     // in the latest scan
+    int ignored = 0;           // detections of the object in a row that its track did not use
+    std::vector<ScanScore> doubtful;  // scans since then, which may belong to a loss
     BatchMeans squared_error;
     Vec2 error = Vec2::Zero();
     double peak_error = 0.0;
     double lag = 0.0;
     double predicted_lag = 0.0;
-    double predicted_velocity_square = 0.0;  // variance and squared lag
+    double predicted_velocity_square = 0.0;
     std::int64_t expected_lags = 0;
     double predicted_innovation = 0.0;
     std::int64_t predicted_innovations = 0;
     double first_time = 0.0;  // of its scans
+    double last_time = 0.0;
     double calm_since = 0.0;
     int calm_scans = 0;
     double squared_velocity_error = 0.0;
     double squared_measurement_error = 0.0;
-    double predicted_square = 0.0;  // variance and squared lag
+    double predicted_square = 0.0;
     FloorFilters::Values floor_square{};
     std::int64_t floor_count = 0;
     double innovation = 0.0;
@@ -160,10 +191,13 @@ class RunMetrics final : public RunObserver {
 
   void score_sets(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
-  void score_object(const TruthState& truth, const TrackEstimate& track, double time);
-  void add_expected_lag(ObjectTally& tally, const TruthState& truth,
-                        const TrackEstimate& track) const;
-  void add_expected_innovation(ObjectTally& tally, const Vec2& lag, const Gains& gains) const;
+  void follow(const TruthState& truth, const TrackEstimate& track, const StepRecord& record);
+  ScanScore score_of(const TruthState& truth, const TrackEstimate& track, double time) const;
+  std::optional<ScanScore::Expected> expected_of(const TruthState& truth,
+                                                 const TrackEstimate& track) const;
+  void count(ObjectTally& tally, const ScanScore& score) const;
+  void count_doubtful(ObjectTally& tally) const;
+  void lose(ObjectTally& tally) const;
   void watch_settling(ObjectTally& tally, double error, double time) const;
   ObjectReport report_of(const ObjectInfo& object, const ObjectTally& tally) const;
 

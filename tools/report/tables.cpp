@@ -37,6 +37,8 @@ std::string css_of(Significance significance) {
     case Significance::kTied:
       return "tied";
     case Significance::kNone:
+    case Significance::kTooFew:
+    case Significance::kUndecided:
     case Significance::kWorse:
       break;
   }

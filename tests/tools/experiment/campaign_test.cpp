@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "scenes/schema/writer.hpp"
 #include "tests/tools/experiment/sample_campaign.hpp"
@@ -111,8 +112,22 @@ TEST(WorldOfRun, ScattersLaunchesBySigma) {
   EXPECT_NEAR(square, 8.0, 1.6);
 }
 
-// Property: run k of a scene is `ghtrack run --seed (seed + k)` as far as the sensors go.
-TEST(SceneOfRun, CountsSeedsUp) { EXPECT_EQ(scene_of_run(steady_scene("{runs: 9}"), 4).seed, 9U); }
+// Property: run 0 is the scene itself; no other run of neighbouring seeds, whether of a campaign, for
+// tuning or for judging, has a seed that another one has. Each is exact as a double.
+TEST(SeedOfRun, IsOfThatRunAlone) {
+  EXPECT_EQ(scene_of_run(steady_scene("{runs: 9}"), 0).seed, 5U);
+  std::set<std::uint64_t> seeds;
+  std::size_t made = 0;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    for (const int first : {0, kFirstTuningRun, kFirstJudgingRun}) {
+      for (int run = 0; run < 100; ++run, ++made) {
+        seeds.insert(seed_of_run(seed, first + run));
+        EXPECT_LT(seed_of_run(seed, first + run), std::uint64_t{1} << 53);
+      }
+    }
+  }
+  EXPECT_EQ(seeds.size(), made);
+}
 
 }  // namespace
 }  // namespace ghtrack

@@ -32,8 +32,8 @@ compare: )" + compare + "\n";
   return std::get<WorldScene>(read_scene_text(text, "busy.yaml"));
 }
 
-// Property: the scores of run k are those of `ghtrack run --seed (seed + k)` on the same world, to
-// the last bit.
+// Property: the scores of a run are those of `ghtrack run` with its seed on the same world, to the
+// last bit.
 TEST(Trial, ScoresAsARunDoes) {
   const WorldScene scene = busy_scene("{runs: 5}");
   const Trial trial(scene);

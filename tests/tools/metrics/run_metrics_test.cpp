@@ -167,6 +167,26 @@ TEST(RunMetrics, FindsPeakLagSettlingAndLosses) {
   EXPECT_EQ(ball.track_changes, 0);
 }
 
+// Derived: a track that uses its object's detections in scans 0 to 9 and clutter from then on has lost
+// it at scan 10: ten scans count, with an error of 0.2, and nothing of the 80 m after them. Two
+// detections that it lets go by are no loss.
+TEST(RunMetrics, KeepsLossesOutOfErrors) {
+  RunMetrics metrics({object(0, "ball")}, {.sigma = 0.5, .period = 0.1});
+  for (int i = 0; i < 30; ++i) {
+    StepRecord record = one_object(0.1 * i);
+    TrackEstimate estimate = track(1, {0.0, i < 10 ? 0.2 : 80.0});
+    if (i < 10 && i != 4 && i != 5) estimate.detection = 0;
+    record.tracks.tracks = {estimate};
+    add(metrics, record);
+  }
+  const ObjectReport ball = metrics.report().objects[0];
+  EXPECT_NEAR(*ball.rmse_position, 0.2, 1e-12);
+  EXPECT_NEAR(*ball.peak_error, 0.2, 1e-12);
+  EXPECT_EQ(ball.tracked, 10);
+  EXPECT_EQ(ball.scans, 30);
+  EXPECT_EQ(ball.track_losses, 1);
+}
+
 // Derived: three of ten scans without a used detection; tentative tracks are no output.
 TEST(RunMetrics, CountsUsedAndMissedDetections) {
   RunMetrics metrics({object(0, "ball")}, {});

@@ -45,12 +45,15 @@ void add_rows(Comparison& comparison, std::size_t cell, const std::string& regim
            .gains = "gh g=0.5 h=0.2",
            .mean = mean,
            .ci95 = Interval{0.97 * mean, 1.03 * mean},
+           .median = mean,
+           .median_ci95 = std::nullopt,
            .predicted = 0.9 * mean,
            .bound = 0.15,
            .runs = 100,
            .difference = is_best ? 0.0 : 0.1,
            .difference_ci95 = is_best ? std::nullopt : std::optional(Interval{0.08, 0.12}),
-           .significance = is_best ? Significance::kBest : Significance::kWorse});
+           .significance = is_best ? Significance::kBest : Significance::kWorse,
+           .runs_to_decide = std::nullopt});
     }
   }
 }
