@@ -140,7 +140,7 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
                     {"difference", difference},
                     {"verdict", to_string(row.significance)},
                     {"css", css_of(row.significance)},
-                    {"runs", row.runs}});
+                    {"runs", row.runs == comparison.cells[cell].runs ? Json("") : Json(row.runs)}});
   }
   return rows;
 }
