@@ -84,6 +84,15 @@ std::vector<std::size_t> filters_in(const Comparison& comparison, std::size_t ce
   return {filters.begin(), filters.end()};
 }
 
+std::string with_unit(const MetricInfo& metric) {
+  return std::string(metric.title) + (metric.unit == "1" ? "" : ", " + std::string(metric.unit));
+}
+
+/// The mean, and in how many runs there was a value where it was not in all.
+std::string mean_text(const ComparisonRow& row, std::int64_t all) {
+  return number(row.mean) + (row.runs == all ? "" : fmt::format(" ({} runs)", row.runs));
+}
+
 }  // namespace
 
 std::string cell_id(std::size_t cell) { return fmt::format("scene-{}", cell + 1); }
@@ -130,17 +139,15 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
     std::string difference = number(row.difference);
     if (row.difference_ci95) difference += fmt::format(" ({})", range(row.difference_ci95));
     rows.push_back({{"subject", row.regime.empty() ? "whole scene" : row.regime},
-                    {"metric", metric.title},
-                    {"unit", metric.unit == "1" ? "" : metric.unit},
+                    {"metric", with_unit(metric)},
                     {"filter", comparison.filters[row.filter]},
-                    {"mean", number(row.mean)},
+                    {"mean", mean_text(row, comparison.cells[cell].runs)},
                     {"ci95", range(row.ci95)},
                     {"predicted", number(row.predicted)},
                     {"bound", number(row.bound)},
                     {"difference", difference},
                     {"verdict", to_string(row.significance)},
-                    {"css", css_of(row.significance)},
-                    {"runs", row.runs == comparison.cells[cell].runs ? Json("") : Json(row.runs)}});
+                    {"css", css_of(row.significance)}});
   }
   return rows;
 }

@@ -14,7 +14,7 @@ namespace ghtrack::report {
 /// position, regime by filter; cells that compare the same filters share a table.
 nlohmann::json summary_tables(const Comparison& comparison);
 
-/// [{subject, metric, unit, filter, mean, ci95, predicted, bound, difference, verdict, css,
+/// [{subject, metric, filter, mean, ci95, predicted, bound, difference, verdict, css,
 /// runs}]: all metrics of the regimes of a cell, and of the scene as a whole.
 nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell);
 
