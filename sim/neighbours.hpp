@@ -22,7 +22,7 @@ struct Cluster {
   std::vector<std::size_t> unyielding;  // what these may hit; can be part of several clusters
 };
 
-/// The clusters among these boxes, by sweep and prune along x. Bodies far from every other are in
+/// The clusters among these boxes, by sweep and prune along x in rows of y. Bodies far from every other are in
 /// none. Two bodies that are near the same unyielding one only are in different clusters, since
 /// they have no influence on each other.
 std::vector<Cluster> find_clusters(const std::vector<SweptBox>& boxes);

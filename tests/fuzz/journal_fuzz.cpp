@@ -48,7 +48,7 @@ struct Sample {
 };
 
 std::string with_check_sum(std::string record) {
-  const std::uint64_t sum = ghtrack::key_of(record);
+  const std::uint64_t sum = ghtrack::check_sum(record);
   return record.append(reinterpret_cast<const char*>(&sum), sizeof sum);
 }
 
@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       << sample.header << (data[0] == 1 ? with_check_sum(rest) : rest);
   ghtrack::Results results(sample.campaign);
   try {
-    ghtrack::read_journal(file, sample.campaign, results);
+    ghtrack::read_journals({file}, sample.campaign, results);
   } catch (const ghtrack::InputError&) {
     return 0;
   }

@@ -68,7 +68,7 @@ BENCHMARK(run_beside_truth)->Name("three_regimes/run")->Unit(benchmark::kMillise
 
 void compute_all(const Campaign& campaign, int jobs) {
   compute(
-      campaign, Shard{}, Results(campaign), jobs, [] {},
+      campaign, groups_by_truth(campaign), Shard{}, RunSet(campaign), jobs, [] {},
       [](std::size_t, int, std::vector<double> scores) { benchmark::DoNotOptimize(scores); });
 }
 

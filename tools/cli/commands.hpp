@@ -57,7 +57,8 @@ struct CompareOptions {
   std::string shard;                // I/N; empty: everything
   std::string merge;                // folder of parts to be joined; empty: none
   bool resume = false;
-  bool video = false;  // of `run`
+  std::optional<bool> runs_csv;  // whether to write it; up to 10 000 runs
+  bool video = false;            // of `run`
 };
 
 struct TuneOptions {

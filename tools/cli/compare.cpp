@@ -74,18 +74,23 @@ int threads(const CompareOptions& options) {
   return options.jobs.value_or(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
 }
 
-/// Computes what the results lack of a share, and keeps it in the share's journal.
-void compute_share(const Campaign& campaign, const Shard& shard, const fs::path& folder,
-                   const CompareOptions& options, const Manners& manners, Results& results) {
-  const std::int64_t runs = runs_to_do(campaign, shard, results);
+/// A campaign with what its stages share.
+struct Study {
+  Campaign campaign;
+  std::vector<CellGroup> groups = groups_by_truth(campaign, stop_if_interrupted);
+};
+
+/// Computes what is missing of a share, and keeps it in the share's journal.
+void compute_share(const Study& study, const Shard& shard, const RunSet& done,
+                   const fs::path& folder, const CompareOptions& options, const Manners& manners) {
+  const std::int64_t runs = runs_to_do(study.campaign, study.groups, shard, done);
   if (options.resume && runs == 0 && fs::exists(journal_path(folder, shard))) return;
-  Journal journal(folder, shard, campaign, options.resume);
+  Journal journal(folder, shard, study.campaign, options.resume);
   Progress progress("comparing", "runs", static_cast<std::size_t>(runs),
                     manners.quiet || shard.index > 0);
-  compute(campaign, shard, results, threads(options), stop_if_interrupted,
-          [&](std::size_t cell, int run, std::vector<double> scores) {
+  compute(study.campaign, study.groups, shard, done, threads(options), stop_if_interrupted,
+          [&](std::size_t cell, int run, const std::vector<double>& scores) {
             journal.add(cell, run, scores);
-            results.put(cell, run, std::move(scores));
             progress.advance();
           });
   journal.complete();
@@ -105,15 +110,19 @@ void write_run_table(const Campaign& campaign, const Results& results, const fs:
 }
 
 /// Averages complete results, writes all files and prints the table.
-void publish(const Campaign& campaign, const Results& results, const fs::path& folder, int jobs,
-             const Manners& manners) {
-  const Comparison comparison = compare(campaign, results, jobs, stop_if_interrupted);
+void publish(const Study& study, const Results& results, const fs::path& folder,
+             const CompareOptions& options, const Manners& manners) {
+  constexpr std::int64_t kMostRunsInTable = 10'000;
+  const Comparison comparison =
+      compare(study.campaign, study.groups, results, threads(options), stop_if_interrupted);
   ResultFolder files(folder);
-  write_run_table(campaign, results, files.scratch() / "runs.csv");
+  if (options.runs_csv.value_or(study.campaign.items() <= kMostRunsInTable)) {
+    write_run_table(study.campaign, results, files.scratch() / "runs.csv");
+  }
   write_file(files.scratch() / "comparison.json", to_json(comparison).dump(2) + "\n");
   write_file(files.scratch() / "comparison.csv", comparison_csv(comparison));
   write_file(files.scratch() / "report.html",
-             comparison_report(comparison, {.videos = videos_in(folder, campaign)}));
+             comparison_report(comparison, {.videos = videos_in(folder, study.campaign)}));
   files.commit();
   print(to_table(comparison, terminal_width()));
   if (!manners.quiet) tell("results in {}", folder.string());
@@ -127,55 +136,57 @@ int merge(const CompareOptions& options, const Manners& manners) {
                                  printable(options.merge)));
   }
   const std::vector<fs::path> complete = journals_in(parts, false);
-  const Campaign campaign = campaign_of(complete.empty() ? journals.front() : complete.front());
-  Results results(campaign);
-  for (const fs::path& journal : journals) read_journal(journal, campaign, results);
+  const Study study{campaign_of(complete.empty() ? journals.front() : complete.front())};
+  const fs::path folder = options.output.empty() ? parts : folder_named(options.output);
+  make_folder(folder);
+  Results results(study.campaign, folder);
+  read_journals(journals, study.campaign, results);
   if (const std::int64_t missing = results.missing(); missing > 0) {
     throw UsageError(
         fmt::format("compare: {} of {} runs are missing in '{}': run the other "
                     "shards, or those in .partial files again with --resume",
-                    missing, campaign.items(), printable(options.merge)));
+                    missing, study.campaign.items(), printable(options.merge)));
   }
-  const fs::path folder = options.output.empty() ? parts : folder_named(options.output);
-  make_folder(folder);
-  publish(campaign, results, folder, threads(options), manners);
+  publish(study, results, folder, options, manners);
   return 0;
 }
 
-/// Adds what the other ranks have computed.
-void gather(const Campaign& campaign, int ranks, const fs::path& folder, Results& results) {
-  for (int i = 1; i < ranks; ++i) {
-    read_journal(journal_path(folder, {i, ranks}), campaign, results);
+/// Puts the shares of all ranks together.
+void publish_shares(const Study& study, int ranks, const fs::path& folder,
+                    const CompareOptions& options, const Manners& manners) {
+  std::vector<fs::path> journals;
+  for (int i = 0; i < ranks; ++i) journals.push_back(journal_path(folder, {i, ranks}));
+  if (options.resume) journals = journals_in(folder, true);
+  Results results(study.campaign, folder);
+  read_journals(journals, study.campaign, results);
+  if (results.missing() > 0) {
+    throw std::runtime_error(fmt::format(
+        "the part files of other ranks are not in {}: all ranks need to see this folder",
+        folder.string()));
   }
-  if (results.missing() == 0) return;
-  throw std::runtime_error(
-      fmt::format("the part files of other ranks are not in {}: all ranks need to see this folder",
-                  folder.string()));
+  publish(study, results, folder, options, manners);
 }
 
-/// Computes what is asked for, a part on its own or the share of this MPI rank, and puts the shares
-/// of all ranks together.
-void compute_part(const Campaign& campaign, const std::optional<Shard>& part,
-                  const fs::path& folder, const CompareOptions& options, const Manners& manners) {
+/// Computes what is asked for: a part on its own, or the share of this MPI rank.
+void compute_part(const Study& study, const std::optional<Shard>& part, const fs::path& folder,
+                  const CompareOptions& options, const Manners& manners) {
   Ranks& ranks = join_ranks();
   if (part && ranks.count() > 1) {
     throw UsageError("compare: --shard is for processes on their own; MPI ranks share the runs");
   }
   const Shard shard = part.value_or(Shard{ranks.index(), ranks.count()});
-  Results results(campaign);
+  RunSet done(study.campaign);
   if (options.resume) {
+    JournalReader reader(study.campaign);
     for (const fs::path& journal : journals_in(folder, true)) {
-      read_journal(journal, campaign, results);
+      reader.read(journal, [&](std::size_t cell, int run, const auto&) { done.add(cell, run); });
     }
     ranks.wait_for_all(stop_if_interrupted);
   }
-  compute_share(campaign, shard, folder, options, manners, results);
+  compute_share(study, shard, done, folder, options, manners);
   if (!part) {
     ranks.wait_for_all(stop_if_interrupted);
-    if (shard.index == 0) {
-      gather(campaign, shard.count, folder, results);
-      publish(campaign, results, folder, threads(options), manners);
-    }
+    if (shard.index == 0) publish_shares(study, shard.count, folder, options, manners);
   }
   ranks.leave();
 }
@@ -195,7 +206,7 @@ int compare(const CompareOptions& options, const Manners& manners) {
   if (!options.shard.empty()) part = parse_shard(options.shard);
   make_folder(folder);
   try {
-    compute_part(campaign, part, folder, options, manners);
+    compute_part(Study{campaign}, part, folder, options, manners);
   } catch (Interrupted& interrupted) {
     interrupted.remark =
         fmt::format("{} keeps the runs that are done; the same command with --resume does the rest",

@@ -214,6 +214,11 @@ void add_compare(CLI::App& app, CompareOptions& options) {
                      "I/N: only every N-th run, from number I on (0 to N-1), into a part file");
   command.add_option("--merge", options.merge, "join the part files in this folder");
   command.add_flag("--resume", options.resume, "compute only what the part files lack");
+  command.add_flag_callback(
+      "--runs-csv", [&options] { options.runs_csv = true; },
+      "write runs.csv, a row per run, filter and object (default: up to 10000 runs)");
+  command.add_flag_callback(
+      "--no-runs-csv", [&options] { options.runs_csv = false; }, "do not write it");
   CLI::Option* const run = add_number(command, "--run", options.run, {.least = 0, .most = 999'999},
                                       "replay this run alone (from 0) and print its rows");
   command.add_flag("--video", options.video, "with --run: also film it, all filters side by side")

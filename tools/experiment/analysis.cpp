@@ -14,7 +14,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kTheoryRuns = 8;         // over which theory averages what differs between runs
 constexpr std::size_t kIndices = 19;   // tracking indices 10^-3.5, … 10^2.5
 constexpr std::size_t kGridSide = 20;  // of a gain surface
 constexpr std::size_t kTheoryScans = 100'000;  // of each run
@@ -182,28 +181,29 @@ std::vector<LabelledObject> objects_of(const std::vector<LabelledObject>& object
 }
 
 GainSurface surface_of(const Trial& trial, const std::string& regime,
-                       const std::vector<LabelledObject>& objects) {
+                       const std::vector<LabelledObject>& objects, int jobs) {
   GainSurface surface{.regime = regime, .g = {}, .h = {}, .rmse = {}, .best = {}, .marks = {}};
   for (std::size_t i = 0; i < kGridSide; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(kGridSide - 1);
     surface.g.push_back(0.02 + 0.98 * share);
     surface.h.push_back(std::pow(10.0, -4.0 + 4.0 * share));
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (const double g : surface.g) {
-    for (const double h : surface.h) {
-      const Gains gains = Gains::of_gh(g, h);
-      SquaredErrors sum;
-      if (is_stable(gains)) {
-        const GainFilter<2> filter =
-            plain_filter(gains, trial.scoring().sigma, trial.scoring().period);
-        for (const LabelledObject& object : objects) sum += expected_errors(filter, object);
-      }
-      surface.rmse.push_back(or_nan(sum.position.root()));
-      if (!(surface.rmse.back() < least)) continue;
-      least = surface.rmse.back();
-      surface.best = gains;
+  surface.rmse.resize(kGridSide * kGridSide);
+  in_parallel(surface.rmse.size(), jobs, [&](std::size_t i) {
+    const Gains gains = Gains::of_gh(surface.g[i / kGridSide], surface.h[i % kGridSide]);
+    SquaredErrors sum;
+    if (is_stable(gains)) {
+      const GainFilter<2> filter =
+          plain_filter(gains, trial.scoring().sigma, trial.scoring().period);
+      for (const LabelledObject& object : objects) sum += expected_errors(filter, object);
     }
+    surface.rmse[i] = or_nan(sum.position.root());
+  });
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < surface.rmse.size(); ++i) {
+    if (!(surface.rmse[i] < least)) continue;
+    least = surface.rmse[i];
+    surface.best = Gains::of_gh(surface.g[i / kGridSide], surface.h[i % kGridSide]);
   }
   for (std::size_t i = 0; i < trial.contenders().size(); ++i) {
     const Filter& filter = trial.design(i).filter_for(regime, 0);
@@ -215,7 +215,9 @@ GainSurface surface_of(const Trial& trial, const std::string& regime,
 
 }  // namespace
 
-int theory_runs(const WorldScene& scene) { return std::min(kTheoryRuns, scene.compare.runs); }
+int theory_runs(const WorldScene& scene) {
+  return std::min(SharedTruth::kKeptRuns, scene.compare.runs);
+ }
 
 std::vector<SubjectTheory> theory_of(const Trial& trial, std::span<const RunTruth> truths,
                                      int jobs) {
@@ -248,14 +250,14 @@ std::vector<SubjectTheory> theory_of(const Trial& trial, std::span<const RunTrut
   return theory;
 }
 
-std::vector<GainSurface> gain_surfaces(const Trial& trial, const RunTruth& truth) {
+std::vector<GainSurface> gain_surfaces(const Trial& trial, const RunTruth& truth, int jobs) {
   const std::vector<LabelledObject> objects =
       labelled_objects(trial, 0, truth, some_objects(trial, kSurfaceScans));
   std::vector<GainSurface> surfaces;
   for (const Subject& subject : trial.subjects()) {
     if (subject.regime.empty() || !subject.object.empty()) continue;
     const std::vector<LabelledObject> own = objects_of(objects, subject);
-    if (!own.empty()) surfaces.push_back(surface_of(trial, subject.regime, own));
+    if (!own.empty()) surfaces.push_back(surface_of(trial, subject.regime, own, jobs));
   }
   return surfaces;
 }

@@ -33,7 +33,8 @@ std::vector<SubjectTheory> theory_of(const Trial& trial, std::span<const RunTrut
 int theory_runs(const WorldScene& scene);
 
 /// The expected RMSE of position over a grid of g and h, for each regime, on run 0.
-std::vector<GainSurface> gain_surfaces(const Trial& trial, const RunTruth& truth);
+/// @param jobs  threads; the outcome does not depend on them
+std::vector<GainSurface> gain_surfaces(const Trial& trial, const RunTruth& truth, int jobs);
 
 /// Run 0 of a cell, thinned out for a picture.
 ExampleRun example_of(const Trial& trial, const RunTruth& truth);

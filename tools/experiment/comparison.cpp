@@ -10,7 +10,6 @@
 
 #include "tools/experiment/analysis.hpp"
 #include "tools/experiment/engine.hpp"
-#include "tools/experiment/shared_truth.hpp"
 #include "tools/experiment/trial.hpp"
 
 namespace ghtrack {
@@ -27,27 +26,10 @@ struct CellOutcome {
   std::vector<ComparisonRow> rows;
 };
 
-/// Numbers of all runs of a cell, one list per place in the layout.
-class RunValues {
- public:
-  RunValues(const Results& results, std::size_t cell, int runs) {
-    for (int run = 0; run < runs; ++run) runs_.push_back(&results.at(cell, run));
-  }
-
-  std::vector<double> at(std::size_t place) const {
-    std::vector<double> values;
-    for (const std::vector<double>* run : runs_) values.push_back(run->at(place));
-    return values;
-  }
-
- private:
-  std::vector<const std::vector<double>*> runs_;
-};
-
 /// Reduces the results of one cell.
 class CellReduction {
  public:
-  CellReduction(const Trial& trial, RunValues values)
+  CellReduction(const Trial& trial, ResultColumns values)
       : trial_(trial), layout_(trial.layout()), values_(std::move(values)) {}
 
   /// @param theory  of the trial's subjects
@@ -227,7 +209,7 @@ class CellReduction {
 
   const Trial& trial_;
   TrialLayout layout_;
-  RunValues values_;
+  ResultColumns values_;
 };
 
 /// @param truths  of the cell's first runs
@@ -235,7 +217,7 @@ CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::si
                        std::span<const RunTruth> truths, int jobs,
                        const std::function<void()>& on_step) {
   const Trial trial(cell.scene, on_step);
-  const CellReduction reduction(trial, RunValues(results, index, cell.runs()));
+  const CellReduction reduction(trial, results.columns(index));
   CellOutcome outcome;
   for (const Contender& contender : trial.contenders()) {
     outcome.contenders.push_back(contender.name);
@@ -252,7 +234,7 @@ CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::si
                   .regimes = trial.regimes(),
                   .curves = reduction.curves(),
                   .example = example_of(trial, truths.front()),
-                  .surfaces = gain_surfaces(trial, truths.front())};
+                  .surfaces = gain_surfaces(trial, truths.front(), jobs)};
   return outcome;
 }
 
@@ -276,10 +258,10 @@ void renumber(CellOutcome& outcome, std::vector<std::string>& filters) {
 
 }  // namespace
 
-Comparison compare(const Campaign& campaign, const Results& results, int jobs,
-                   const std::function<void()>& on_step) {
+Comparison compare(const Campaign& campaign, std::span<const CellGroup> groups,
+                   const Results& results, int jobs, const std::function<void()>& on_step) {
   std::vector<CellOutcome> outcomes(campaign.cells.size());
-  for (const CellGroup& group : groups_by_truth(campaign, on_step)) {
+  for (const CellGroup& group : groups) {
     int runs = 0;
     for (const std::size_t i : group.cells) {
       runs = std::max(runs, theory_runs(campaign.cells[i].scene));

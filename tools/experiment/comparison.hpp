@@ -4,13 +4,15 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/experiment/campaign.hpp"
-#include "tools/experiment/journal.hpp"
 #include "tools/experiment/metric.hpp"
+#include "tools/experiment/results.hpp"
+#include "tools/experiment/shared_truth.hpp"
 #include "tools/metrics/quantiles.hpp"
 #include "tracker/filters/gains/gains.hpp"
 
@@ -123,11 +125,12 @@ struct Comparison {
 };
 
 /// Averages the results of a campaign and sets theory beside them.
+/// @param groups   the campaign's cells by their truth
 /// @param results  of all runs
 /// @param jobs     threads; the outcome does not depend on them
 /// @param on_step  called again and again by all threads; may throw to give up
 Comparison compare(
-    const Campaign& campaign, const Results& results, int jobs,
+    const Campaign& campaign, std::span<const CellGroup> groups, const Results& results, int jobs,
     const std::function<void()>& on_step = [] {});
 
 /// `comparison.csv`: one line per row.

@@ -16,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -24,7 +25,6 @@
 #include <utility>
 #include <vector>
 
-#include "tools/experiment/shared_truth.hpp"
 #include "tools/experiment/trial.hpp"
 
 namespace ghtrack {
@@ -71,40 +71,21 @@ struct Outcome {
   std::vector<std::vector<double>> scores;  // of the cells
 };
 
-bool is_missing(const Campaign& campaign, const Shard& shard, const Results& results,
-                std::size_t cell, int run) {
-  std::int64_t number = run;
-  for (std::size_t i = 0; i < cell; ++i) number += campaign.cells[i].runs();
-  return run < campaign.cells[cell].runs() && number % shard.count == shard.index &&
-         !results.has(cell, run);
-}
-
-int missing_runs(const Campaign& campaign, const Shard& shard, const Results& results,
-                 std::size_t cell) {
-  int runs = 0;
-  for (int run = 0; run < campaign.cells[cell].runs(); ++run) {
-    runs += is_missing(campaign, shard, results, cell, run) ? 1 : 0;
-  }
-  return runs;
-}
-
-/// Deals out what the results lack of a share, run by run of each group of cells.
+/// Deals out what is missing of a share, run by run of each group of cells.
 class MissingItems {
  public:
-  MissingItems(const Campaign& campaign, const Shard& shard, const Results& results,
-               const std::vector<CellGroup>& groups)
-      : campaign_(campaign), shard_(shard), results_(results), groups_(groups) {}
+  MissingItems(const Campaign& campaign, std::span<const CellGroup> groups, const Shard& shard,
+               const RunSet& done)
+      : campaign_(campaign), groups_(groups), shard_(shard), done_(done) {}
 
   std::optional<Item> next() {
     for (; group_ < groups_.size(); ++group_, run_ = 0) {
       const CellGroup& group = groups_[group_];
-      const auto runs = [&](std::size_t cell) { return campaign_.cells[cell].runs(); };
-      while (std::any_of(group.cells.begin(), group.cells.end(),
-                         [&](std::size_t cell) { return run_ < runs(cell); })) {
+      while (run_ < most_runs(group)) {
         Item item{group.truth.get(), run_++, {}};
-        std::copy_if(
-            group.cells.begin(), group.cells.end(), std::back_inserter(item.cells),
-            [&](std::size_t cell) { return is_missing(campaign_, shard_, results_, cell, item.run); });
+        if (number_++ % shard_.count != shard_.index) continue;
+        std::copy_if(group.cells.begin(), group.cells.end(), std::back_inserter(item.cells),
+                     [&](std::size_t cell) { return is_missing(cell, item.run); });
         if (!item.cells.empty()) return item;
       }
     }
@@ -112,13 +93,34 @@ class MissingItems {
   }
 
  private:
+  int most_runs(const CellGroup& group) const {
+    int most = 0;
+    for (const std::size_t cell : group.cells) most = std::max(most, campaign_.cells[cell].runs());
+    return most;
+  }
+  bool is_missing(std::size_t cell, int run) const {
+    return run < campaign_.cells[cell].runs() && !done_.has(cell, run);
+  }
+
   const Campaign& campaign_;
+  std::span<const CellGroup> groups_;
   const Shard& shard_;
-  const Results& results_;
-  const std::vector<CellGroup>& groups_;
+  const RunSet& done_;
   std::size_t group_ = 0;
   int run_ = 0;
+  std::int64_t number_ = 0;  // of the next run, through all groups
 };
+
+/// How many runs are missing of a share, by cell.
+std::vector<int> missing_runs(const Campaign& campaign, std::span<const CellGroup> groups,
+                              const Shard& shard, const RunSet& done) {
+  std::vector<int> missing(campaign.cells.size(), 0);
+  MissingItems items(campaign, groups, shard, done);
+  while (const std::optional<Item> item = items.next()) {
+    for (const std::size_t cell : item->cells) ++missing[cell];
+  }
+  return missing;
+}
 
 std::string place_of(const CampaignCell& cell, int run) {
   return cell.file + (cell.sweep.empty() ? "" : " with " + cell.sweep) + ", run " +
@@ -145,24 +147,21 @@ int available_threads(std::size_t wanted) {
 
 }  // namespace
 
-std::int64_t runs_to_do(const Campaign& campaign, const Shard& shard, const Results& results) {
-  std::int64_t runs = 0;
-  for (std::size_t cell = 0; cell < campaign.cells.size(); ++cell) {
-    runs += missing_runs(campaign, shard, results, cell);
-  }
-  return runs;
+std::int64_t runs_to_do(const Campaign& campaign, std::span<const CellGroup> groups,
+                        const Shard& shard, const RunSet& done) {
+  const std::vector<int> missing = missing_runs(campaign, groups, shard, done);
+  return std::accumulate(missing.begin(), missing.end(), std::int64_t{0});
 }
 
-void compute(const Campaign& campaign, const Shard& shard, const Results& results, int jobs,
-             const std::function<void()>& on_step,
+void compute(const Campaign& campaign, std::span<const CellGroup> groups, const Shard& shard,
+             const RunSet& done, int jobs, const std::function<void()>& on_step,
              const std::function<void(std::size_t, int, std::vector<double>)>& on_result) {
-  const std::vector<CellGroup> groups = groups_by_truth(campaign, on_step);
+  const std::vector<int> missing = missing_runs(campaign, groups, shard, done);
   std::vector<std::unique_ptr<SharedTrial>> trials;
   for (std::size_t i = 0; i < campaign.cells.size(); ++i) {
-    trials.push_back(std::make_unique<SharedTrial>(
-        campaign.cells[i].scene, missing_runs(campaign, shard, results, i), on_step));
+    trials.push_back(std::make_unique<SharedTrial>(campaign.cells[i].scene, missing[i], on_step));
   }
-  MissingItems items(campaign, shard, results, groups);
+  MissingItems items(campaign, groups, shard, done);
 
   const auto run = [&](const Item& item) {
     std::size_t cell = item.cells.front();

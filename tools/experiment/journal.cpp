@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "sim/random.hpp"
+#include "tools/experiment/metric.hpp"
 #include "tools/experiment/trial.hpp"
 #include "tools/record/errors.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "ghtrack runs 2\n";
+constexpr std::string_view kMagic = "ghtrack runs 3\n";
 constexpr std::string_view kExtension = ".runs";
 constexpr std::string_view kPartial = ".partial";
 
@@ -60,60 +61,14 @@ std::string header_of(const Campaign& campaign) {
   return header;
 }
 
-std::string record_of(std::size_t cell, int run, const std::vector<double>& scores) {
+std::string record_of(std::size_t cell, int run, std::span<const double> scores) {
   std::string record;
+  record.reserve((4 + scores.size()) * sizeof(double));
   append(record, static_cast<std::uint64_t>(cell));
   append(record, static_cast<std::uint64_t>(run));
   append(record, static_cast<std::uint64_t>(scores.size()));
   for (const double score : scores) append(record, score);
-  append(record, key_of(record));
-  return record;
-}
-
-/// Takes numbers from the front of some bytes.
-class Bytes {
- public:
-  explicit Bytes(std::string_view bytes) : rest_(bytes) {}
-
-  template <class Number>
-  std::optional<Number> take() {
-    Number number{};
-    if (rest_.size() < sizeof number) return std::nullopt;
-    std::memcpy(&number, rest_.data(), sizeof number);
-    rest_.remove_prefix(sizeof number);
-    return number;
-  }
-  std::string_view take(std::size_t count) {
-    const std::string_view taken = rest_.substr(0, count);
-    rest_.remove_prefix(taken.size());
-    return taken;
-  }
-  std::size_t left() const { return rest_.size(); }
-  std::string_view rest() const { return rest_; }
-
- private:
-  std::string_view rest_;
-};
-
-struct Record {
-  std::uint64_t cell = 0;
-  std::uint64_t run = 0;
-  std::vector<double> scores;
-};
-
-/// The next record; nothing at the end, and where the rest is damaged.
-std::optional<Record> next_record(Bytes& bytes) {
-  const std::string_view start = bytes.rest();
-  Bytes ahead = bytes;
-  const auto cell = ahead.take<std::uint64_t>();
-  const auto run = ahead.take<std::uint64_t>();
-  const auto count = ahead.take<std::uint64_t>();
-  if (!count || *count > ahead.left() / sizeof(double)) return std::nullopt;
-  Record record{*cell, *run, {}};
-  for (std::uint64_t i = 0; i < *count; ++i) record.scores.push_back(*ahead.take<double>());
-  const std::uint64_t sum = key_of(start.substr(0, start.size() - ahead.left()));
-  if (ahead.take<std::uint64_t>() != sum) return std::nullopt;
-  bytes = ahead;
+  append(record, check_sum(record));
   return record;
 }
 
@@ -121,44 +76,128 @@ std::optional<Record> next_record(Bytes& bytes) {
   throw InputError(path.string() + ": error: " + reason);
 }
 
-/// Nothing if the file is not there. Waits for no pipe.
-std::optional<std::string> bytes_if_there(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0 && errno == ENOENT) return std::nullopt;
-  if (descriptor < 0) refuse(path, "cannot be read: " + std::generic_category().message(errno));
-  struct stat about {};
-  std::string bytes;
-  ssize_t got = -1;
-  if (::fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode)) {
-    bytes.resize(static_cast<std::size_t>(about.st_size));
-    std::size_t filled = 0;
-    do {
-      got = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
-      filled += got > 0 ? static_cast<std::size_t>(got) : 0;
-    } while (got > 0 && filled < bytes.size());
-    bytes.resize(filled);
+/// Reads a file of runs from its start to its end, a piece at a time. Waits for no pipe.
+class JournalInput {
+ public:
+  explicit JournalInput(const fs::path& path) : path_(path) {
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor_ < 0 && errno == ENOENT) return;
+    if (descriptor_ < 0) refuse(path, "cannot be read: " + std::generic_category().message(errno));
+    struct stat about {};
+    if (::fstat(descriptor_, &about) == 0 && S_ISREG(about.st_mode)) {
+      unread_ = static_cast<std::uint64_t>(about.st_size);
+      return;
+    }
+    ::close(descriptor_);
+    refuse(path, "cannot be read as a file of runs");
   }
-  ::close(descriptor);
-  if (got < 0) refuse(path, "cannot be read as a file of runs");
-  return bytes;
+  ~JournalInput() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  JournalInput(const JournalInput&) = delete;
+  JournalInput& operator=(const JournalInput&) = delete;
+
+  bool is_there() const { return descriptor_ >= 0; }
+
+  /// How many bytes are left.
+  std::uint64_t left() const { return buffer_.size() - begin_ + unread_; }
+
+  /// The next bytes without taking them, fewer at the end; valid until the next call.
+  std::string_view ahead(std::uint64_t count) {
+    const std::size_t wanted = static_cast<std::size_t>(std::min(count, left()));
+    if (buffer_.size() - begin_ < wanted) fill(wanted);
+    return std::string_view(buffer_).substr(begin_, wanted);
+  }
+
+  void skip(std::size_t count) {
+    begin_ += count;
+    taken_ += count;
+  }
+
+  /// How many bytes have been skipped in all.
+  std::uint64_t taken() const { return taken_; }
+
+ private:
+  void fill(std::size_t wanted) {
+    constexpr std::size_t kPiece = std::size_t{1} << 18;
+    buffer_.erase(0, begin_);
+    begin_ = 0;
+    while (buffer_.size() < wanted && unread_ > 0) {
+      const std::size_t before = buffer_.size();
+      const std::size_t piece = static_cast<std::size_t>(
+          std::min<std::uint64_t>(unread_, std::max(kPiece, wanted - before)));
+      buffer_.resize(before + piece);
+      const ssize_t got = ::read(descriptor_, buffer_.data() + before, piece);
+      if (got < 0 && errno != EINTR) refuse(path_, "cannot be read as a file of runs");
+      buffer_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+      unread_ = got == 0 ? 0 : unread_ - (buffer_.size() - before);  // it may have been cut short
+    }
+  }
+
+  fs::path path_;
+  int descriptor_ = -1;
+  std::string buffer_;
+  std::size_t begin_ = 0;     // of what has not been taken
+  std::uint64_t unread_ = 0;  // in the file
+  std::uint64_t taken_ = 0;
+};
+
+std::uint64_t number_at(std::string_view bytes, std::size_t word) {
+  std::uint64_t number = 0;
+  std::memcpy(&number, bytes.data() + word * sizeof number, sizeof number);
+  return number;
+}
+
+/// Takes the text with its length in front.
+std::string take_text(JournalInput& input, const fs::path& path) {
+  const std::string_view length = input.ahead(sizeof(std::uint64_t));
+  const bool has_length = length.size() == sizeof(std::uint64_t);
+  const std::uint64_t size = has_length ? number_at(length, 0) : 0;
+  if (!has_length || size > input.left() - sizeof size) {
+    refuse(path, "is not a file of runs, or was cut off at its start");
+  }
+  input.skip(sizeof size);
+  std::string text(input.ahead(size));
+  input.skip(text.size());
+  return text;
 }
 
 /// Skips the header. @returns the campaign's text
-std::string_view take_header(Bytes& bytes, const fs::path& path) {
-  const auto take_text = [&] {
-    const auto length = bytes.take<std::uint64_t>();
-    if (!length || *length > bytes.left()) {
-      refuse(path, "is not a file of runs, or was cut off at its start");
-    }
-    return bytes.take(*length);
-  };
-  if (bytes.take(kMagic.size()) != kMagic) {
+std::string take_header(JournalInput& input, const fs::path& path) {
+  if (input.ahead(kMagic.size()) != kMagic) {
     refuse(path, "is not a file of runs of this version, or was cut off at its start");
   }
-  if (take_text() != meaning_of_numbers()) {
+  input.skip(kMagic.size());
+  if (take_text(input, path) != meaning_of_numbers()) {
     refuse(path, "holds other metrics than this build of the program, or in another order");
   }
-  return take_text();
+  return take_text(input, path);
+}
+
+struct Record {
+  std::uint64_t cell = 0;
+  std::uint64_t run = 0;
+  std::vector<double> scores;
+};
+
+/// Takes the next record, into the same memory as the one before; false at the end, and where the
+/// rest is damaged.
+bool take_record(JournalInput& input, Record& record) {
+  constexpr std::size_t kFront = 3, kAround = 4;  // words before the scores, and around them
+  const std::string_view front = input.ahead(kFront * sizeof(double));
+  if (front.size() < kFront * sizeof(double)) return false;
+  const std::uint64_t count = number_at(front, 2);
+  if (count > input.left() / sizeof(double)) return false;
+  const std::string_view all = input.ahead((count + kAround) * sizeof(double));
+  if (all.size() < (count + kAround) * sizeof(double)) return false;
+  const std::string_view summed = all.substr(0, all.size() - sizeof(std::uint64_t));
+  if (number_at(all, kFront + count) != check_sum(summed)) return false;
+  record.cell = number_at(all, 0);
+  record.run = number_at(all, 1);
+  record.scores.resize(count);
+  std::memcpy(record.scores.data(), all.data() + front.size(), count * sizeof(double));
+  input.skip(all.size());
+  return true;
 }
 
 /// Checks a record before anything is made of it: its check sum says only that it was written so.
@@ -183,30 +222,22 @@ void check(const Record& record, const Campaign& campaign, std::size_t size,
 }
 
 /// How many bytes of a journal of this campaign are sound; 0 if it cannot be gone on with.
-std::size_t sound_size(const fs::path& path, const std::string& header) {
-  const std::string all = bytes_if_there(path).value_or("");
-  if (!all.starts_with(header)) return 0;
-  Bytes bytes(std::string_view(all).substr(header.size()));
-  while (next_record(bytes)) {
+std::uint64_t sound_size(const fs::path& path, const std::string& header) {
+  JournalInput input(path);
+  if (!input.is_there() || input.ahead(header.size()) != header) return 0;
+  input.skip(header.size());
+  for (Record record; take_record(input, record);) {
   }
-  return all.size() - bytes.left();
+  return input.taken();
 }
 
 }  // namespace
 
-Results::Results(const Campaign& campaign) {
-  for (const CampaignCell& cell : campaign.cells) {
-    runs_.emplace_back(static_cast<std::size_t>(cell.runs()));
-  }
-}
-
-std::int64_t Results::missing() const {
-  std::int64_t missing = 0;
-  for (const auto& runs : runs_) {
-    missing += std::count_if(runs.begin(), runs.end(),
-                             [](const std::vector<double>& run) { return run.empty(); });
-  }
-  return missing;
+std::uint64_t check_sum(std::string_view record) {
+  std::uint64_t sum = 0;
+  const std::size_t words = record.size() / sizeof(std::uint64_t);
+  for (std::size_t i = 0; i < words; ++i) sum += combine(number_at(record, i), i);
+  return sum;
 }
 
 Journal::Journal(const fs::path& folder, const Shard& shard, const Campaign& campaign,
@@ -228,7 +259,7 @@ Journal::Journal(const fs::path& folder, const Shard& shard, const Campaign& cam
                      "--mpi=pmix");
   }
   if (!resume) fs::remove(path_, ignored);
-  const std::size_t sound = resume ? sound_size(partial_path_, header) : 0;
+  const std::uint64_t sound = resume ? sound_size(partial_path_, header) : 0;
   const auto end = static_cast<off_t>(sound);
   if (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) != end) fail();
   if (sound == 0) write(header);
@@ -246,7 +277,7 @@ bool Journal::is_still_ours() const {
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
-void Journal::add(std::size_t cell, int run, const std::vector<double>& scores) {
+void Journal::add(std::size_t cell, int run, std::span<const double> scores) {
   write(record_of(cell, run, scores));
 }
 
@@ -293,29 +324,48 @@ std::vector<fs::path> journals_in(const fs::path& folder, bool partial_ones) {
 }
 
 Campaign campaign_of(const fs::path& journal) {
-  const std::string all = bytes_if_there(journal).value_or("");
-  Bytes bytes(all);
-  return read_back(take_header(bytes, journal), journal.string());
+  JournalInput input(journal);
+  return read_back(take_header(input, journal), journal.string());
 }
 
-void read_journal(const fs::path& journal, const Campaign& campaign, Results& results) {
-  const std::optional<std::string> all = bytes_if_there(journal);
-  if (!all || header_of(campaign).starts_with(*all)) return;
-  Bytes bytes(*all);
-  if (take_header(bytes, journal) != write_campaign(campaign)) {
+JournalReader::JournalReader(const Campaign& campaign)
+    : campaign_(campaign), header_(header_of(campaign)), widths_(campaign.cells.size()) {}
+
+std::size_t JournalReader::width_of(std::size_t cell) {
+  std::optional<std::size_t>& width = widths_[cell];
+  if (!width) width = layout_of(campaign_.cells[cell].scene).size();
+  return *width;
+}
+
+void JournalReader::read(const fs::path& journal, const OnRun& on_run) {
+  JournalInput input(journal);
+  if (!input.is_there()) return;
+  const std::string_view start = input.ahead(header_.size());
+  if (start != header_) {
+    if (header_.starts_with(start)) return;
+    take_header(input, journal);
     refuse(journal,
            "is of another campaign: other scenes, filters, runs or seed, or another version of the "
            "program; remove it, or choose another folder");
   }
-  std::vector<std::optional<std::size_t>> sizes(campaign.cells.size());  // of a record, by cell
-  while (auto record = next_record(bytes)) {
-    if (record->cell >= campaign.cells.size()) {
+  input.skip(header_.size());
+  for (Record record; take_record(input, record);) {
+    if (record.cell >= campaign_.cells.size()) {
       refuse(journal, "holds runs of a scene that the campaign does not have");
     }
-    std::optional<std::size_t>& size = sizes[record->cell];
-    if (!size) size = layout_of(campaign.cells[record->cell].scene).size();
-    check(*record, campaign, *size, journal);
-    results.put(record->cell, static_cast<int>(record->run), std::move(record->scores));
+    const auto cell = static_cast<std::size_t>(record.cell);
+    check(record, campaign_, width_of(cell), journal);
+    on_run(cell, static_cast<int>(record.run), record.scores);
+  }
+}
+
+void read_journals(const std::vector<fs::path>& journals, const Campaign& campaign,
+                   Results& results) {
+  JournalReader reader(campaign);
+  for (const fs::path& journal : journals) {
+    reader.read(journal, [&](std::size_t cell, int run, std::span<const double> scores) {
+      results.put(cell, run, scores);
+    });
   }
 }
 

@@ -2,41 +2,21 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/experiment/campaign.hpp"
+#include "tools/experiment/engine.hpp"
+#include "tools/experiment/results.hpp"
 
 // The results of runs on disk: one file for each share of a campaign. Each run is written as soon
 // as it is done, so that whatever stops a program costs no more than the runs that it was in.
 
 namespace ghtrack {
-
-/// The part of a campaign that one process computes: the runs whose number, counted through all
-/// cells, leaves the remainder `index` when divided by `count`.
-struct Shard {
-  int index = 0;  // from 0
-  int count = 1;
-};
-
-/// Results of a campaign, by cell and run: numbers as TrialLayout says, none for a run that is
-/// missing.
-class Results {
- public:
-  explicit Results(const Campaign& campaign);
-
-  bool has(std::size_t cell, int run) const { return !at(cell, run).empty(); }
-  const std::vector<double>& at(std::size_t cell, int run) const {
-    return runs_.at(cell).at(static_cast<std::size_t>(run));
-  }
-  void put(std::size_t cell, int run, std::vector<double> scores) {
-    runs_.at(cell).at(static_cast<std::size_t>(run)) = std::move(scores);
-  }
-  std::int64_t missing() const;
-
- private:
-  std::vector<std::vector<std::vector<double>>> runs_;
-};
 
 /// The file of a share: `<folder>/shard-I-of-N.runs`. While runs are missing its name ends in
 /// `.partial`. Its header says which campaign it is of and what its numbers mean, name by name.
@@ -54,7 +34,7 @@ class Journal {
   Journal& operator=(const Journal&) = delete;
 
   /// @throws WriteError
-  void add(std::size_t cell, int run, const std::vector<double>& scores);
+  void add(std::size_t cell, int run, std::span<const double> scores);
 
   /// All runs of the share are there: the file gets its final name.
   void complete();
@@ -80,10 +60,33 @@ std::vector<std::filesystem::path> journals_in(const std::filesystem::path& fold
 /// @throws InputError if the file is no journal
 Campaign campaign_of(const std::filesystem::path& journal);
 
-/// Adds what a journal holds: nothing if it is not there, because the process that writes it has
-/// just renamed it, or ends within its first bytes.
-/// @throws InputError if it is no journal, or one of another campaign or of a program that stores
-///         other numbers, or if a sound record holds what no run can have given
-void read_journal(const std::filesystem::path& journal, const Campaign& campaign, Results& results);
+/// The check sum of a record: of its words of 64 bits, each mixed with its place.
+std::uint64_t check_sum(std::string_view record);
+
+/// Reads the journals of one campaign, in constant memory and with no more work for each than its
+/// bytes are.
+class JournalReader {
+ public:
+  explicit JournalReader(const Campaign& campaign);
+
+  using OnRun = std::function<void(std::size_t cell, int run, std::span<const double> scores)>;
+
+  /// Goes through the runs that a journal holds: none if it is not there, because the process that
+  /// writes it has just renamed it, or ends within its first bytes.
+  /// @throws InputError if it is no journal, or one of another campaign or of a program that stores
+  ///         other numbers, or if a sound record holds what no run can have given
+  void read(const std::filesystem::path& journal, const OnRun& on_run);
+
+ private:
+  std::size_t width_of(std::size_t cell);
+
+  const Campaign& campaign_;
+  std::string header_;
+  std::vector<std::optional<std::size_t>> widths_;  // numbers of a run, by cell, as far as needed
+};
+
+/// Adds what journals hold to results of the same campaign.
+void read_journals(const std::vector<std::filesystem::path>& journals, const Campaign& campaign,
+                   Results& results);
 
 }  // namespace ghtrack

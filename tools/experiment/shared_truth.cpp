@@ -11,6 +11,8 @@
 namespace ghtrack {
 namespace {
 
+constexpr double kRoom = 64.0 * 1024 * 1024;  // of a campaign, for recordings that stay [B]
+
 /// The scene with nothing but what its truth depends on.
 WorldScene truth_only(const WorldScene& scene) {
   WorldScene truth;
@@ -44,6 +46,10 @@ void SharedTruth::add(const WorldScene& scene) {
   instants_ = std::move(all);
 }
 
+bool SharedTruth::stays(int run) const {
+  return run < kKeptRuns && recorded_bytes(objects_, instants_.size()) * kKeptRuns <= room_;
+}
+
 RunTruth SharedTruth::of_run(int run, bool is_reused) const {
   const std::function<World()> make_world = [this, run] { return world_of_run(scene_, run); };
   if (!fits_into_memory(objects_, instants_.size())) return RunTruth(make_world);
@@ -51,9 +57,11 @@ RunTruth SharedTruth::of_run(int run, bool is_reused) const {
     SimulatedTruth simulated(make_world);
     return std::make_shared<const TruthRecording>(record(simulated, instants_, on_step_));
   };
-  if (truth_is_fixed(scene_)) {
-    std::call_once(recorded_, [&] { common_ = recorded(); });
-    return RunTruth(common_);
+  const bool is_fixed = truth_is_fixed(scene_);
+  if (is_fixed || stays(run)) {
+    Kept& kept = kept_[is_fixed ? 0 : static_cast<std::size_t>(run)];
+    std::call_once(kept.made, [&] { kept.recording = recorded(); });
+    return RunTruth(kept.recording);
   }
   if (is_reused) return RunTruth(recorded());
   return RunTruth(make_world);
@@ -74,6 +82,7 @@ std::vector<CellGroup> groups_by_truth(const Campaign& campaign,
     }
     groups[found->second].cells.push_back(i);
   }
+  for (CellGroup& group : groups) group.truth->set_room(kRoom / static_cast<double>(groups.size()));
   return groups;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -31,6 +33,10 @@ class RunTruth {
 /// noise only. Constant operations are safe to use from several threads.
 class SharedTruth {
  public:
+  /// Recordings of so many runs, the first ones, stay for whoever asks for them later, such as
+  /// theory; if they have room.
+  static constexpr int kKeptRuns = 8;
+
   /// @param on_step  called at each instant that is recorded; may throw to give up
   explicit SharedTruth(
       const WorldScene& scene, std::function<void()> on_step = [] {});
@@ -38,17 +44,28 @@ class SharedTruth {
   /// Makes room for the scans of another scene with the same truth.
   void add(const WorldScene& scene);
 
-  /// The truth of a run: recorded if all runs have it in common, or if it is to be gone through
-  /// more than once; and if it fits into memory.
+  /// @param bytes  that recordings which stay may take; else they are made anew
+  void set_room(double bytes) { room_ = bytes; }
+
+  /// The truth of a run: recorded if all runs have it in common, if it stays, or if it is to be gone
+  /// through more than once; and if it fits into memory.
   RunTruth of_run(int run, bool is_reused) const;
 
  private:
+  bool stays(int run) const;
+
   WorldScene scene_;  // with nothing but what the truth depends on
   std::function<void()> on_step_;
   std::vector<double> instants_;  // of the scans of all scenes [s]
   std::size_t objects_;
-  mutable std::once_flag recorded_;
-  mutable std::shared_ptr<const TruthRecording> common_;  // of all runs
+  double room_ = 0.0;  // [B]
+
+  /// A recording that is made when somebody first asks for it.
+  struct Kept {
+    std::once_flag made;
+    std::shared_ptr<const TruthRecording> recording;
+  };
+  mutable std::array<Kept, kKeptRuns> kept_;  // of the first runs; of all runs in the first place
 };
 
 /// The cells of a campaign that share a truth.
@@ -56,7 +73,7 @@ struct CellGroup {
   std::unique_ptr<SharedTruth> truth;
   std::vector<std::size_t> cells;
 };
-std::vector<CellGroup> groups_by_truth(const Campaign& campaign,
-                                       const std::function<void()>& on_step);
+std::vector<CellGroup> groups_by_truth(
+    const Campaign& campaign, const std::function<void()>& on_step = [] {});
 
 }  // namespace ghtrack

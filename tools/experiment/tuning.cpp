@@ -216,7 +216,7 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
                                     runs_of(judging, subject), options)
                             .result(theory[regimes[i]]);
   });
-  tuning.surfaces = gain_surfaces(trial, truths.front());
+  tuning.surfaces = gain_surfaces(trial, truths.front(), options.jobs);
   return tuning;
 }
 

@@ -2,33 +2,58 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <compare>
+#include <limits>
 
 namespace ghtrack {
 namespace {
 
-/// Indices of the tracks by a coordinate, for the search of an interval.
-struct Sweep {
-  std::vector<int> order;
-  std::vector<double> key;  // ascending
-
-  template <class KeyOf>
-  Sweep(int count, KeyOf key_of) {
-    order.reserve(count);
+/// Points in rows of a height and sorted by x in each, for the search of a rectangle: so the cost
+/// grows with what is near it, however the points are arranged.
+class Rows {
+ public:
+  /// @param height  of a row; rectangles should be about as high
+  template <class PointOf>
+  Rows(int count, double height, PointOf point_of)
+      : height_(std::isfinite(height) && height > 0.0 ? height : 1.0) {
+    points_.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
-      if (std::isfinite(key_of(i))) order.push_back(i);
+      const Eigen::Vector2d point = point_of(i);
+      if (point.allFinite()) points_.push_back({row_of(point.y()), point.x(), i});
     }
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return key_of(a) < key_of(b); });
-    key.reserve(order.size());
-    for (const int i : order) key.push_back(key_of(i));
+    std::sort(points_.begin(), points_.end());
   }
 
-  /// Calls visit(index) for every key in [low, high].
+  /// Calls visit(index) for every point in a rectangle, and for some that are above or below it.
   template <class Visit>
-  void each_between(double low, double high, Visit visit) const {
-    auto at = static_cast<std::size_t>(std::lower_bound(key.begin(), key.end(), low) - key.begin());
-    for (; at < key.size() && key[at] <= high; ++at) visit(order[at]);
+  void each_in(double left, double right, double bottom, double top, Visit visit) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double last = row_of(top);
+    auto at = points_.begin();
+    for (double row = row_of(bottom); row <= last;
+         row = std::max(row + 1.0, std::nextafter(row, kInfinity))) {
+      at = std::lower_bound(at, points_.end(), Point{row, left, 0});
+      if (at != points_.end() && at->row > row) {  // the rows between hold nothing
+        row = at->row;
+        at = std::lower_bound(at, points_.end(), Point{row, left, 0});
+      }
+      if (at == points_.end() || row > last) return;
+      for (; at != points_.end() && at->row == row && at->x <= right; ++at) visit(at->index);
+    }
   }
+
+ private:
+  struct Point {
+    double row;  // a whole number
+    double x;
+    int index;
+    auto operator<=>(const Point&) const = default;
+  };
+
+  double row_of(double y) const { return std::floor(y / height_); }
+
+  double height_;
+  std::vector<Point> points_;
 };
 
 void sort_by_track(std::vector<Pair>& pairs, std::size_t first) {
@@ -52,14 +77,17 @@ double intersection_over_union(const Box& a, const Box& b) {
 
 std::vector<Pair> close_pairs(std::span<const Eigen::Vector2d> truth,
                               std::span<const Eigen::Vector2d> tracks, double radius) {
-  const Sweep sweep(static_cast<int>(tracks.size()), [&](int i) { return tracks[i].x(); });
+  const Rows rows(static_cast<int>(tracks.size()), 2.0 * radius, [&](int i) { return tracks[i]; });
   std::vector<Pair> pairs;
   for (int i = 0; i < static_cast<int>(truth.size()); ++i) {
+    if (!truth[i].allFinite()) continue;
     const std::size_t first = pairs.size();
-    const double x = truth[i].x();
-    // The interval is a little wider than the radius: the distance below decides.
-    const double reach = radius * (1.0 + 1e-12) + 1e-12 * std::abs(x);
-    sweep.each_between(x - reach, x + reach, [&](int j) {
+    // The square is a little wider than the radius: the distance below decides.
+    const double slack = 1e-12 * (std::abs(truth[i].x()) + std::abs(truth[i].y()));
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius * (1.0 + 1e-12) + slack);
+    const Eigen::Vector2d low = truth[i] - reach;
+    const Eigen::Vector2d high = truth[i] + reach;
+    rows.each_in(low.x(), high.x(), low.y(), high.y(), [&](int j) {
       const Eigen::Vector2d offset = truth[i] - tracks[j];
       const double distance = std::sqrt(offset.x() * offset.x() + offset.y() * offset.y());
       if (distance <= radius) pairs.push_back({i, j, distance});
@@ -71,15 +99,23 @@ std::vector<Pair> close_pairs(std::span<const Eigen::Vector2d> truth,
 
 std::vector<Pair> overlapping_pairs(std::span<const Box> truth, std::span<const Box> tracks) {
   double widest = 0.0;
-  for (const Box& box : tracks) widest = std::max(widest, box.width);
-  const Sweep sweep(static_cast<int>(tracks.size()), [&](int i) { return tracks[i].left; });
+  double highest = 0.0;
+  for (const Box& box : tracks) {
+    widest = std::max(widest, box.width);
+    highest = std::max(highest, box.height);
+  }
+  const Rows rows(static_cast<int>(tracks.size()), highest, [&](int i) {
+    return Eigen::Vector2d(tracks[i].left, tracks[i].top);
+  });
   std::vector<Pair> pairs;
   for (int i = 0; i < static_cast<int>(truth.size()); ++i) {
     const std::size_t first = pairs.size();
-    sweep.each_between(truth[i].left - widest, truth[i].left + truth[i].width, [&](int j) {
-      const double overlap = intersection_over_union(truth[i], tracks[j]);
-      if (overlap > 0.0) pairs.push_back({i, j, overlap});
-    });
+    const Box& box = truth[i];
+    rows.each_in(box.left - widest, box.left + box.width, box.top - highest, box.top + box.height,
+                 [&](int j) {
+                   const double overlap = intersection_over_union(box, tracks[j]);
+                   if (overlap > 0.0) pairs.push_back({i, j, overlap});
+                 });
     sort_by_track(pairs, first);
   }
   return pairs;

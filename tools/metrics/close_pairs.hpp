@@ -14,8 +14,8 @@ struct Pair {
 };
 
 /// All pairs at a distance of at most `radius`, ordered by truth, then track; value = distance.
-/// The tracks are searched by a sweep over x, so the cost grows with the neighbours and not with
-/// |truth| × |tracks|. A point that is not finite is near nothing.
+/// The tracks are searched in rows, by x, so the cost grows with the neighbours and not with
+/// |truth| × |tracks|, however they are arranged. A point that is not finite is near nothing.
 std::vector<Pair> close_pairs(std::span<const Eigen::Vector2d> truth,
                               std::span<const Eigen::Vector2d> tracks, double radius);
 

@@ -2,13 +2,27 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "sensors/observation.hpp"
 #include "tracker/filters/kalman_filter.hpp"
 
 namespace ghtrack {
+
+/// A Kalman filter for detections whose error is alike in all directions. So is its own, then, and
+/// the covariance of one axis serves for both: a small part of the work and memory of KalmanFilter.
+struct RoundKalmanFilter {
+  Kinematics<2> state;
+  AxisCovariance<double> covariance{};  // of either axis
+
+  void start(const KalmanModel& model, int order, const Eigen::Vector2d& z, double variance);
+  void predict(const KalmanModel& model, int order, double dt);
+  /// @param variance  of the detection per axis [m²]
+  void update(const Eigen::Vector2d& z, double variance);
+};
 
 /// What a tracker's error may be held against: Kalman filters of constant velocity and of constant
 /// acceleration, thirteen of each with three tracking indices per decade, that are told which
@@ -34,8 +48,24 @@ class FloorFilters {
   std::optional<Values> squared_errors(const Eigen::Vector2d& truth) const;
 
  private:
-  std::vector<KalmanFilter<1, 2>> velocity_;
-  std::vector<KalmanFilter<2, 2>> acceleration_;
+  using Round = std::array<RoundKalmanFilter, kFilters>;
+  struct General {  // once there was a detection with a preferred direction
+    std::vector<KalmanFilter<1, 2>> velocity;
+    std::vector<KalmanFilter<2, 2>> acceleration;
+  };
+  struct Design {
+    std::array<KalmanModel, kNoises> models;
+    General not_started;
+  };
+  static int order_of(std::size_t filter) { return filter < kNoises ? 1 : 2; }
+  const KalmanModel& model_of(std::size_t filter) const { return design_->models[filter % kNoises]; }
+
+  void start(const Detection& detection);
+  void update(const Detection& detection);
+  General general_of(const Round& round) const;
+
+  std::shared_ptr<const Design> design_;  // shared by copies
+  std::variant<std::monostate, Round, General> filters_;
   double time_ = 0.0;
   int detections_ = 0;
 };

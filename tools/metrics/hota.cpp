@@ -1,7 +1,9 @@
 #include "tools/metrics/hota.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
 #include "tools/metrics/best_pairs.hpp"
@@ -60,7 +62,59 @@ void derive(HotaResult& result) {
   result.asspr = mean(result.asspr_at);
 }
 
+/// A pair as two words: both identities, and its value. The end of a scan has identities of its own.
+constexpr std::uint64_t kEndOfScan = ~std::uint64_t{0};
+
+double identities_of(const Pair& pair) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(pair.truth) << 32 |
+                               static_cast<std::uint32_t>(pair.track));
+}
+
 }  // namespace
+
+void RivalPairs::add_scan(std::span<const Pair> pairs) {
+  constexpr std::size_t kMostInMemory = std::size_t{1} << 17;  // words
+  if (pairs.empty()) return;
+  for (const Pair& pair : pairs) {
+    latest_.push_back(identities_of(pair));
+    latest_.push_back(pair.value);
+  }
+  latest_.push_back(std::bit_cast<double>(kEndOfScan));
+  latest_.push_back(0.0);
+  if (latest_.size() > kMostInMemory) write_out();
+}
+
+void RivalPairs::write_out() {
+  if (!file_) file_.emplace(std::filesystem::temp_directory_path());
+  file_->write(written_, latest_);
+  written_ += latest_.size();
+  latest_.clear();
+}
+
+template <class Visit>
+void RivalPairs::each_scan(Visit visit) const {
+  constexpr std::uint64_t kPiece = 1U << 14;  // words
+  std::vector<Pair> pairs;
+  const auto take = [&](std::span<const double> words) {
+    for (std::size_t i = 0; i < words.size(); i += 2) {
+      const auto identities = std::bit_cast<std::uint64_t>(words[i]);
+      if (identities != kEndOfScan) {
+        pairs.push_back({static_cast<int>(identities >> 32),
+                         static_cast<int>(identities & 0xffffffffU), words[i + 1]});
+        continue;
+      }
+      visit(std::span<const Pair>(pairs));
+      pairs.clear();
+    }
+  };
+  std::vector<double> piece;
+  for (std::uint64_t at = 0; at < written_; at += piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min(kPiece, written_ - at)));
+    file_->read(at, piece);
+    take(piece);
+  }
+  take(latest_);
+}
 
 void Hota::Tally::match(int truth, int track, double similarity_of_pair) {
   const std::size_t reached = thresholds_reached(similarity_of_pair);
@@ -86,6 +140,7 @@ void Hota::add(const MotStep& step) {
     ++truth_degree[pair.truth];
     ++track_degree[pair.track];
   }
+  rivals_now_.clear();
   for (const Pair& pair : step.pairs) {
     const int truth = step.truth[pair.truth];
     const int track = step.tracks[pair.track];
@@ -94,25 +149,22 @@ void Hota::add(const MotStep& step) {
     if (truth_degree[pair.truth] == 1 && track_degree[pair.track] == 1) {
       tally_.match(truth, track, pair.value);
     } else {
-      rivals_.push_back({truth, track, pair.value});
+      rivals_now_.push_back({truth, track, pair.value});
     }
   }
-  if (rivals_.size() > (rival_scans_.empty() ? 0 : rival_scans_.back())) {
-    rival_scans_.push_back(rivals_.size());
-  }
+  rivals_.add_scan(rivals_now_);
 }
 
 void Hota::settle_rivals(Tally& tally) const {
   std::vector<int> column_of(track_scans_.size(), -1);  // of each identity, in one scan
   std::vector<Pair> scores;
-  std::size_t begin = 0;
-  for (const std::size_t end : rival_scans_) {
+  rivals_.each_scan([&](std::span<const Pair> rivals) {
     scores.clear();
     int rows = 0;
     int columns = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto [truth, track, similarity] = rivals_[i];
-      if (i == begin || truth != rivals_[i - 1].truth) ++rows;
+    for (std::size_t i = 0; i < rivals.size(); ++i) {
+      const auto [truth, track, similarity] = rivals[i];
+      if (i == 0 || truth != rivals[i - 1].truth) ++rows;
       if (column_of[track] < 0) column_of[track] = columns++;
       const double fit = tally.meetings.at(truth, track).fit;
       const double alignment =
@@ -120,12 +172,10 @@ void Hota::settle_rivals(Tally& tally) const {
       scores.push_back({rows - 1, column_of[track], alignment * similarity});
     }
     for (const std::size_t i : most_valuable_pairs(scores, rows, columns)) {
-      const Pair& pair = rivals_[begin + i];
-      tally.match(pair.truth, pair.track, pair.value);
+      tally.match(rivals[i].truth, rivals[i].track, rivals[i].value);
     }
-    for (std::size_t i = begin; i < end; ++i) column_of[rivals_[i].track] = -1;
-    begin = end;
-  }
+    for (const Pair& pair : rivals) column_of[pair.track] = -1;
+  });
 }
 
 HotaResult Hota::result() const {

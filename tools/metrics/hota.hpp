@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "tools/metrics/mot_step.hpp"
+#include "tools/record/number_file.hpp"
 
 namespace ghtrack {
 
@@ -31,10 +33,28 @@ struct HotaResult {
 /// added; association and localisation are means weighted by the matches.
 HotaResult combine(std::span<const HotaResult> results);
 
+/// The pairs of some scans that compete, by identity. Beyond a megabyte they wait in a file, so that
+/// memory does not grow with their number.
+class RivalPairs {
+ public:
+  /// Adds the pairs of a scan, unless there are none.
+  void add_scan(std::span<const Pair> pairs);
+
+  /// Calls visit(pairs) for each scan, in their order.
+  template <class Visit>
+  void each_scan(Visit visit) const;
+
+ private:
+  void write_out();
+
+  std::vector<double> latest_;  // pairs of words, that are not in the file yet
+  std::optional<NumberFile> file_;
+  std::uint64_t written_ = 0;  // words in the file
+};
+
 /// Counts scan by scan. HOTA's pairing in a scan depends on how well two identities fit over the
 /// whole run, which is known only at the end. Where a pair has no rival it is decided at once; the
-/// pairs of a scan that compete are kept until then. Beyond the tables by identity, memory grows
-/// with those alone.
+/// pairs of a scan that compete are kept until then. Memory grows with the tables by identity alone.
 class Hota {
  public:
   void add(const MotStep& step);
@@ -60,8 +80,8 @@ class Hota {
   std::vector<std::int64_t> truth_scans_, track_scans_;  // by identity
   std::int64_t truths_ = 0;
   std::int64_t tracks_ = 0;
-  std::vector<Pair> rivals_;              // competing pairs, by identity
-  std::vector<std::size_t> rival_scans_;  // where each scan's rivals end
+  RivalPairs rivals_;
+  std::vector<Pair> rivals_now_;  // working space
 };
 
 }  // namespace ghtrack

@@ -9,6 +9,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kEnough = 1e-15;  // relative size of a term that ends a sum
+constexpr std::int64_t kManyDegrees = 1000;  // from which on four terms beside the normal suffice
 
 /// P(a, x), the regularised lower incomplete gamma function.
 double incomplete_gamma(double a, double x) {
@@ -65,6 +66,29 @@ double student_central(double t, std::int64_t degrees) {
   return std::sin(theta) * sum;
 }
 
+/// Of Student's t.
+double student_density(double t, double degrees) {
+  const double scale = std::exp(std::lgamma(0.5 * (degrees + 1.0)) - std::lgamma(0.5 * degrees)) /
+                       std::sqrt(degrees * std::numbers::pi);
+  return scale * std::pow(1.0 + t * t / degrees, -0.5 * (degrees + 1.0));
+}
+
+/// The quantile of Student's t by the normal one (Abramowitz & Stegun 26.7.5).
+double near_normal_quantile(double z, double degrees) {
+  const double z2 = z * z;
+  const double terms[] = {(z2 + 1.0) / 4.0, ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0,
+                          (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0,
+                          ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) /
+                              92160.0};
+  double t = z;
+  double power = z;
+  for (const double term : terms) {
+    power /= degrees;
+    t += term * power;
+  }
+  return t;
+}
+
 }  // namespace
 
 double chi_square_quantile(double probability, double degrees) {
@@ -86,13 +110,20 @@ double chi_square_quantile(double probability, double degrees) {
 
 double student_quantile(double probability, std::int64_t degrees) {
   if (probability < 0.5) return -student_quantile(1.0 - probability, degrees);
+  const double z = normal_quantile(probability);
+  if (degrees > kManyDegrees) return near_normal_quantile(z, static_cast<double>(degrees));
   double low = 0.0;
   double high = 1e9;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 + 0.5 * student_central(middle, degrees) < probability ? low : high) = middle;
+  double t = z;
+  for (int i = 0; i < 200; ++i) {
+    const double excess = 0.5 + 0.5 * student_central(t, degrees) - probability;
+    (excess < 0.0 ? low : high) = t;
+    const double newton = t - excess / student_density(t, static_cast<double>(degrees));
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (std::abs(next - t) <= kEnough * t) return next;
+    t = next;
   }
-  return 0.5 * (low + high);
+  return t;
 }
 
 Interval chi_square_mean_bounds95(double count, double degrees) {

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <charconv>
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ghtrack {
 
@@ -20,7 +25,10 @@ class CsvRow {
  public:
   CsvRow& operator<<(double value) {
     separate();
-    append_number(text_, value);
+    Written& before = before_in(column_);
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    if (before.size == 0 || before.bits != bits) before = written(value);
+    text_.append(before.digits.data(), before.size);
     return *this;
   }
 
@@ -45,23 +53,45 @@ class CsvRow {
     return *this;
   }
 
+  /// A cell, or several with commas between them, as another row has them.
+  CsvRow& copy_cells(std::string_view cells) {
+    separate();
+    text_ += cells;
+    return *this;
+  }
+
   /// Ends the row; further cells start the next one.
   void end() {
     text_ += '\n';
-    first_ = true;
+    column_ = 0;
   }
 
   const std::string& text() const { return text_; }
   void clear() { text_.clear(); }
 
  private:
+  /// A number as it was written last. Columns such as times say the same in many rows in succession,
+  /// and finding the shortest digits is most of the work on a row.
+  struct Written {
+    std::uint64_t bits = 0;
+    std::uint8_t size = 0;  // of the digits; 0: nothing yet
+    std::array<char, 24> digits{};
+  };
+  static Written written(double value);
+
+  /// What was written last in a column, counted from 1.
+  Written& before_in(std::size_t column) {
+    if (before_.size() < column) before_.resize(column);
+    return before_[column - 1];
+  }
+
   void separate() {
-    if (!first_) text_ += ',';
-    first_ = false;
+    if (column_++ > 0) text_ += ',';
   }
 
   std::string text_;
-  bool first_ = true;
+  std::size_t column_ = 0;  // the cells that the row has
+  std::vector<Written> before_;
 };
 
 }  // namespace ghtrack

@@ -1,6 +1,7 @@
 #include "tools/record/run_writer.hpp"
 
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace ghtrack {
@@ -108,11 +109,13 @@ void RunWriter::add_observation(const TruthSnapshot& truth, const Observation& o
   origin_rows_.clear();
   for (std::size_t i = 0; i < scan.detections.size(); ++i) {
     const Detection& detection = scan.detections[i];
-    rows_ << scan.time << sensor << detection.label << detection.position.x()
-          << detection.position.y();
+    rows_ << scan.time << sensor << detection.label;
+    const std::size_t before = rows_.text().size() + 1;
+    rows_ << detection.position.x() << detection.position.y();
+    origin_rows_ << scan.time << sensor;
+    origin_rows_.copy_cells(std::string_view(rows_.text()).substr(before));
+    origin_rows_ << observation.origins.at(i);
     rows_.end();
-    origin_rows_ << scan.time << sensor << detection.position.x() << detection.position.y()
-                 << observation.origins.at(i);
     origin_rows_.end();
   }
   detections_.write(rows_.text());

@@ -139,7 +139,7 @@ Scratch Scratch::file_beside(const fs::path& target, int& descriptor) {
     return target.parent_path() / (name + "." + letters + std::string(kAfter));
   };
   return Scratch(make_new(target, named, [&](const fs::path& path) {
-    constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+    constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
     descriptor = ::open(path.c_str(), kFlags, 0666);
     return descriptor >= 0;
   }));

@@ -30,18 +30,58 @@ Viewport candidate(const LabelRequest& label, int slot) {
           label.width, label.height};
 }
 
-/// All places that a label may take lie in here.
-Viewport reach_of(const LabelRequest& label) {
-  const double far = label.reach + kDistances.back() * label.height;
-  const double x = far + label.width;
-  const double y = far + label.height;
-  return {label.anchor.x - x, label.anchor.y - y, 2.0 * x, 2.0 * y};
-}
-
 bool lies_within(const Viewport& inner, const Viewport& outer) {
   return inner.left >= outer.left && inner.top >= outer.top && inner.right() <= outer.right() &&
          inner.bottom() <= outer.bottom();
 }
+
+/// Rectangles by the squares of a picture that they touch, to be found without a look at all others.
+class Squares {
+ public:
+  explicit Squares(const Viewport& area)
+      : area_(area), columns_(1 + last(area.width)), squares_(columns_ * (1 + last(area.height))) {}
+
+  void add(std::size_t index, const Viewport& box) {
+    each_square(box, [&](std::vector<std::size_t>& square) { square.push_back(index); });
+  }
+
+  /// The numbers of all rectangles that touch the squares of this one, ascending.
+  const std::vector<std::size_t>& near(const Viewport& box) {
+    near_.clear();
+    each_square(box, [&](const std::vector<std::size_t>& square) {
+      near_.insert(near_.end(), square.begin(), square.end());
+    });
+    std::sort(near_.begin(), near_.end());
+    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+    return near_;
+  }
+
+ private:
+  static constexpr double kSide = 24.0;  // [px]
+
+  static std::size_t last(double length) {
+    return static_cast<std::size_t>(std::max(0.0, length) / kSide);
+  }
+
+  template <class Visit>
+  void each_square(const Viewport& box, const Visit& visit) {
+    if (!(overlap(box, area_) > 0.0)) return;
+    const double top = std::max(box.top, area_.top);
+    const double left = std::max(box.left, area_.left);
+    const double bottom = std::min(box.bottom(), area_.bottom());
+    const double right = std::min(box.right(), area_.right());
+    for (std::size_t row = last(top - area_.top); row <= last(bottom - area_.top); ++row) {
+      for (std::size_t i = last(left - area_.left); i <= last(right - area_.left); ++i) {
+        visit(squares_[row * columns_ + i]);
+      }
+    }
+  }
+
+  Viewport area_;
+  std::size_t columns_;
+  std::vector<std::vector<std::size_t>> squares_;
+  std::vector<std::size_t> near_;
+};
 
 }  // namespace
 
@@ -54,34 +94,39 @@ double overlap(const Viewport& first, const Viewport& second) {
 std::vector<std::optional<Viewport>> LabelLayout::place(const std::vector<LabelRequest>& requests,
                                                         const std::vector<Obstacle>& obstacles,
                                                         const Viewport& area) {
+  Squares obstacle_squares(area), label_squares(area);
+  for (std::size_t i = 0; i < obstacles.size(); ++i) obstacle_squares.add(i, obstacles[i].box);
   std::map<int, int> slots;
   std::vector<std::optional<Viewport>> places;
-  const int count = static_cast<int>(kDirections.size() * kDistances.size());
+  const int directions = static_cast<int>(kDirections.size());
   for (const LabelRequest& request : requests) {
+    const auto is_taken = [&](const Viewport& place) {
+      const std::vector<std::size_t>& others = label_squares.near(place);
+      return std::any_of(others.begin(), others.end(), [&](std::size_t other) {
+        return overlap(place, *places[other]) > 0.0;
+      });
+    };
     const auto previous = slots_.find(request.id);
     double least = std::numeric_limits<double>::infinity();
     std::optional<Viewport> best;
-    std::vector<Obstacle> near;
-    for (const Obstacle& obstacle : obstacles)
-      if (overlap(obstacle.box, reach_of(request)) > 0.0) near.push_back(obstacle);
-    for (int slot = 0; slot < count; ++slot) {
+    for (int slot = 0; slot < directions * static_cast<int>(kDistances.size()); ++slot) {
       const Viewport place = candidate(request, slot);
-      const auto is_taken = [&](const std::optional<Viewport>& other) {
-        return other && overlap(place, *other) > 0.0;
-      };
-      if (!lies_within(place, area) || std::any_of(places.begin(), places.end(), is_taken))
-        continue;
-      double cost = kDirectionCost * (slot % static_cast<int>(kDirections.size())) +
-                    kDistanceCost * (slot / static_cast<int>(kDirections.size()));
+      double cost =
+          kDirectionCost * (slot % directions) + kDistanceCost * (slot / directions);
       if (previous != slots_.end() && previous->second != slot) cost += kMoveCost;
-      for (const Obstacle& obstacle : near)
-        if (const double hidden = overlap(place, obstacle.box); hidden > 0.0)
-          cost += obstacle.cost * (1.0 + 5.0 * hidden / (request.width * request.height));
+      if (!(cost < least) || !lies_within(place, area) || is_taken(place)) continue;
+      for (const std::size_t i : obstacle_squares.near(place)) {
+        const double hidden = overlap(place, obstacles[i].box);
+        if (!(hidden > 0.0)) continue;
+        cost += obstacles[i].cost * (1.0 + 5.0 * hidden / (request.width * request.height));
+        if (!(cost < least)) break;
+      }
       if (!(cost < least)) continue;
       least = cost;
       best = place;
       slots[request.id] = slot;
     }
+    if (best) label_squares.add(places.size(), *best);
     places.push_back(best);
   }
   slots_ = std::move(slots);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "tools/render/backdrop.hpp"
 #include "tools/render/text.hpp"
@@ -38,10 +39,14 @@ class Captions {
 
   /// True objects; their ids are negative, so that they do not meet those of tracks.
   void add_names(const TruthSnapshot& truth) {
-    for (const TruthState& object : truth.objects)
-      for (const ObjectInfo& info : stage_.scene.objects)
-        if (info.id == object.id)
-          add(-1 - object.id, object.position, drawable(info.name, 24), 14, dark::kMutedText);
+    std::unordered_map<ObjectId, const ObjectInfo*> named;
+    for (const ObjectInfo& info : stage_.scene.objects) named.emplace(info.id, &info);
+    for (const TruthState& object : truth.objects) {
+      const auto info = named.find(object.id);
+      if (info == named.end()) continue;
+      add(-1 - object.id, object.position, drawable(info->second->name, 24), 14,
+          dark::kMutedText);
+    }
   }
 
   const std::vector<Caption>& all() const { return captions_; }

@@ -8,6 +8,8 @@ namespace ghtrack::render {
 namespace {
 
 const ObjectInfo* find(const SceneDrawing& scene, ObjectId id) {
+  const auto index = static_cast<std::size_t>(id);  // where it is, unless some are left out
+  if (index < scene.objects.size() && scene.objects[index].id == id) return &scene.objects[index];
   const auto matches = [id](const ObjectInfo& object) { return object.id == id; };
   const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), matches);
   return found == scene.objects.end() ? nullptr : &*found;

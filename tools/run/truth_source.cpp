@@ -8,7 +8,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kExtentRate = 10.0;                    // [Hz]
-constexpr std::size_t kMostBytes = 512u * 1024 * 1024;  // of a recording
+constexpr double kMostBytes = 512.0 * 1024 * 1024;  // of a recording
 
 }  // namespace
 
@@ -34,9 +34,13 @@ TruthRecording record(TruthSource& truth, const std::vector<double>& instants,
   return recording;
 }
 
-bool fits_into_memory(std::size_t objects, std::size_t instants) {
+double recorded_bytes(std::size_t objects, std::size_t instants) {
   const std::size_t each = sizeof(TruthSnapshot) + objects * (sizeof(TruthState) + sizeof(BodyPose));
-  return instants <= kMostBytes / each;
+  return static_cast<double>(instants) * static_cast<double>(each);
+}
+
+bool fits_into_memory(std::size_t objects, std::size_t instants) {
+  return recorded_bytes(objects, instants) <= kMostBytes;
 }
 
 std::shared_ptr<const TruthSnapshot> ReplayedTruth::at(double time) {

@@ -61,6 +61,9 @@ struct TruthRecording {
 TruthRecording record(TruthSource& truth, const std::vector<double>& instants,
                       const std::function<void()>& on_step);
 
+/// About how much memory a recording of so many objects and instants takes.
+double recorded_bytes(std::size_t objects, std::size_t instants);
+
 /// Whether a recording of so many objects and instants takes at most half a gigabyte.
 bool fits_into_memory(std::size_t objects, std::size_t instants);
 

@@ -35,9 +35,11 @@ const ComparisonRow& row_of(const Comparison& comparison, const std::string& fil
   throw std::runtime_error("no such row");
 }
 
+Comparison compared(const Campaign& campaign, int jobs = 1) {
+  return ghtrack::compare(campaign, groups_by_truth(campaign), all_results(campaign, jobs), jobs);
+}
 Comparison compared(const std::string& compare, int jobs = 1) {
-  const Campaign campaign = campaign_of_scene(steady_scene(compare));
-  return ghtrack::compare(campaign, all_results(campaign, jobs), jobs);
+  return compared(campaign_of_scene(steady_scene(compare)), jobs);
 }
 
 // Derived: at constant velocity small gains leave less noise: √(2 VRF) σ, within the interval of
@@ -116,7 +118,7 @@ TEST(Comparison, WritesHostileNamesAsText) {
   WorldScene scene = steady_scene("{runs: 2}");
   scene.targets[0].name = "=1+1, \"x\"";
   const Campaign campaign = campaign_of_scene(scene);
-  const std::string csv = comparison_csv(ghtrack::compare(campaign, all_results(campaign), 1));
+  const std::string csv = comparison_csv(compared(campaign));
   EXPECT_THAT(csv, HasSubstr("steady,ball,\"'=1+1, \"\"x\"\"\",scene"));
   EXPECT_EQ(csv.find("\nscene"), std::string::npos);
 }

@@ -45,7 +45,7 @@ TEST(Journal, KeepsWhatItIsGiven) {
 
   Results results(campaign);
   const fs::path file = journal_path(scratch.path(), {1, 4});
-  read_journal(file, campaign, results);
+  read_journals({file}, campaign, results);
   EXPECT_EQ(results.missing(), 2);
   EXPECT_THAT(results.at(0, 2), ::testing::Pointwise(::testing::NanSensitiveDoubleEq(), kScores));
   EXPECT_EQ(write_campaign(campaign_of(file)), write_campaign(campaign));
@@ -69,7 +69,7 @@ TEST(Journal, SurvivesACutAtEveryByte) {
   for (std::uintmax_t size = 0; size < whole; ++size) {
     fs::resize_file(partial, size);
     Results results(campaign);
-    read_journal(partial, campaign, results);
+    read_journals({partial}, campaign, results);
     EXPECT_EQ(results.has(0, 0), size >= header + record);
     EXPECT_FALSE(results.has(0, 1));
     {
@@ -93,9 +93,9 @@ TEST(Journal, IsWrittenByOneProcessAndMayVanish) {
   ASSERT_EQ(seen.size(), 1U);
   journal.complete();
   Results results(campaign);
-  read_journal(seen.front(), campaign, results);
+  read_journals({seen.front()}, campaign, results);
   EXPECT_EQ(results.missing(), 3);
-  read_journal(journal_path(scratch.path(), {}), campaign, results);
+  read_journals({journal_path(scratch.path(), {})}, campaign, results);
   EXPECT_EQ(results.missing(), 2);
 }
 
@@ -107,7 +107,7 @@ TEST(Journal, ReplacesAnOlderCampaign) {
   Journal(scratch.path(), {}, campaign, false).add(0, 0, kScores);
   Results results(campaign);
   for (const fs::path& file : journals_in(scratch.path(), true)) {
-    read_journal(file, campaign, results);
+    read_journals({file}, campaign, results);
   }
   EXPECT_EQ(results.missing(), 2);
 }
@@ -131,7 +131,7 @@ TEST(Journal, RefusesRecordsThatNoRunCanHaveGiven) {
       journal.complete();
     }
     Results results(campaign);
-    EXPECT_THROW(read_journal(journal_path(scratch.path(), {}), campaign, results), InputError);
+    EXPECT_THROW(read_journals({journal_path(scratch.path(), {})}, campaign, results), InputError);
   }
 }
 
@@ -146,7 +146,7 @@ TEST(Journal, FollowsNoLinkAndWaitsForNoPipe) {
   EXPECT_FALSE(fs::exists(scratch.path() / "elsewhere"));
   ASSERT_EQ(::mkfifo((scratch.path() / "shard-1-of-2.runs").c_str(), 0600), 0);
   Results results(campaign);
-  EXPECT_THROW(read_journal(scratch.path() / "shard-1-of-2.runs", campaign, results), InputError);
+  EXPECT_THROW(read_journals({scratch.path() / "shard-1-of-2.runs"}, campaign, results), InputError);
 }
 
 // Property: a flipped bit spoils its run and what follows, nothing before.
@@ -165,7 +165,7 @@ TEST(Journal, NoticesDamage) {
   bytes.put('\x7f');
   bytes.close();
   Results results(campaign);
-  read_journal(file, campaign, results);
+  read_journals({file}, campaign, results);
   EXPECT_TRUE(results.has(0, 0));
   EXPECT_FALSE(results.has(0, 1));
 }
@@ -177,7 +177,7 @@ TEST(Journal, RefusesAnotherCampaign) {
   const Campaign other = campaign_of_scene(steady_scene("{runs: 4}"));
   Journal(scratch.path(), {}, campaign, false).complete();
   Results results(other);
-  EXPECT_THROW(read_journal(journal_path(scratch.path(), {}), other, results), InputError);
+  EXPECT_THROW(read_journals({journal_path(scratch.path(), {})}, other, results), InputError);
   std::ofstream(scratch.path() / "odd.runs") << "not a journal";
   EXPECT_THROW(campaign_of(scratch.path() / "odd.runs"), InputError);
   EXPECT_THROW(read_back("{\"ghtrack\": 7}", "odd.runs"), InputError);

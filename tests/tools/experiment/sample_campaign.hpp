@@ -1,14 +1,13 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
 #include "scenes/schema/reader.hpp"
 #include "tools/experiment/campaign.hpp"
 #include "tools/experiment/engine.hpp"
-#include "tools/experiment/journal.hpp"
+#include "tools/experiment/results.hpp"
 
 namespace ghtrack::testing {
 
@@ -36,9 +35,9 @@ inline Campaign campaign_of_scene(const WorldScene& scene) {
 inline Results all_results(const Campaign& campaign, int jobs = 1) {
   Results results(campaign);
   compute(
-      campaign, Shard{}, results, jobs, [] {},
-      [&](std::size_t cell, int run, std::vector<double> scores) {
-        results.put(cell, run, std::move(scores));
+      campaign, groups_by_truth(campaign), Shard{}, RunSet(campaign), jobs, [] {},
+      [&](std::size_t cell, int run, const std::vector<double>& scores) {
+        results.put(cell, run, scores);
       });
   return results;
 }

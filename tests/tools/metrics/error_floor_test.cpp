@@ -61,6 +61,34 @@ TEST(FloorFilters, FollowAStraightLineThroughMisses) {
   }
 }
 
+// Property: detections whose error is alike in all directions are followed as any others: where it
+// is a little longer in one of them, in all scans or from one on, errors differ as little.
+TEST(FloorFilters, TreatRoundErrorsAsAnyOthers) {
+  for (const int first_slanted : {0, 1, 17}) {
+    FloorFilters round(kSigma, kPeriod);
+    FloorFilters slanted(kSigma, kPeriod);
+    Stream random(2, Purpose::kGeneration, 0, 0);
+    for (int i = 0; i < 60; ++i) {
+      const Vec2 truth(0.5 * i * i, 20.0 * std::sin(0.2 * i));
+      Detection detection{.position = truth,
+                          .covariance = kSigma * kSigma * Eigen::Matrix2d::Identity(),
+                          .label = {}};
+      detection.position.x() += kSigma * random.normal();
+      detection.position.y() += kSigma * random.normal();
+      const bool is_missed = i % 5 == 4;
+      round.step(kPeriod * i, is_missed ? nullptr : &detection);
+      if (i >= first_slanted) detection.covariance(0, 0) *= 1.0 + 1e-9;
+      slanted.step(kPeriod * i, is_missed ? nullptr : &detection);
+      const auto one = round.squared_errors(truth);
+      const auto other = slanted.squared_errors(truth);
+      ASSERT_EQ(one.has_value(), other.has_value());
+      for (std::size_t k = 0; one && k < one->size(); ++k) {
+        EXPECT_NEAR((*one)[k], (*other)[k], 1e-5 * (1.0 + (*one)[k])) << "filter " << k;
+      }
+    }
+  }
+}
+
 // Derived: errors wait until the tracker speaks about the same scan; scans it skips are forgotten.
 TEST(ErrorFloor, AnswersForTheScanThatIsAskedFor) {
   ErrorFloor floor(2, kSigma, kPeriod);

@@ -47,6 +47,19 @@ TEST(StudentQuantile, AgreesWithClosedFormsAndTables) {
   EXPECT_NEAR(student_quantile(0.025, 19), -2.093, 1e-3);
 }
 
+// Property: where the closed form gives way to its series, quantiles go on falling towards the
+// normal one at the same rate, about 1 / degrees.
+TEST(StudentQuantile, PassesSmoothlyToTheNormalOne) {
+  for (const double probability : {0.9, 0.975, 0.9999}) {
+    const auto step = [&](std::int64_t degrees) {
+      return student_quantile(probability, degrees) - student_quantile(probability, degrees + 1);
+    };
+    EXPECT_NEAR(step(1000) / step(999), 1.0, 0.01) << probability;
+    EXPECT_NEAR(step(1000) / step(1001), 1.0, 0.01) << probability;
+  }
+  EXPECT_NEAR(student_quantile(0.975, 1'000'000'000), 1.959963984540054, 1e-8);
+}
+
 // Property: the mean is that of all values, whatever the batches.
 TEST(BatchMeans, KeepsTheMeanOfEverything) {
   BatchMeans means;

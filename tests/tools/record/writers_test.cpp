@@ -82,6 +82,38 @@ TEST(CsvRow, WritesNumbersThatReadBack) {
   EXPECT_EQ(row.text(), "0.1,1e+300,-0,7,,2.5\n");
 }
 
+// Property: numbers are written as std::to_chars() writes them, which the files of before show:
+// measurements, decimals, whole numbers of any size, and any bits at all.
+TEST(CsvRow, WritesNumbersAsTheStandardLibraryDoes) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> measurement(0.0, 100.0);
+  const auto check = [](double value) {
+    char digits[32];
+    const std::string expected(digits, std::to_chars(digits, digits + 32, value).ptr);
+    std::string text;
+    append_number(text, value);
+    ASSERT_EQ(text, expected);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    check(measurement(random));
+    check(std::round(measurement(random) * 1000.0) / 1000.0);
+    check(std::ldexp(static_cast<double>(random() >> (random() % 60)),
+                     static_cast<int>(random() % 80) - 40));
+    check(std::bit_cast<double>(random()));
+  }
+  for (int power = -20; power <= 20; ++power) check(std::pow(10.0, power));
+}
+
+// Property: a cell is written alike whether the row before had the same number in it or not.
+TEST(CsvRow, RemembersNoCellThatChanged) {
+  CsvRow rows;
+  for (const double value : {1.5, 1.5, -0.0, 0.0, 1.5}) {
+    rows << value << 2.5 << value;
+    rows.end();
+  }
+  EXPECT_EQ(rows.text(), "1.5,2.5,1.5\n1.5,2.5,1.5\n-0,2.5,-0\n0,2.5,0\n1.5,2.5,1.5\n");
+}
+
 // Derived: RFC 4180 for quotes; an apostrophe keeps spreadsheets from running a cell.
 TEST(CsvRow, QuotesTextAndDisarmsFormulas) {
   CsvRow row;
