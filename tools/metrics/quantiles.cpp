@@ -40,17 +40,6 @@ double incomplete_gamma(double a, double x) {
   return 1.0 - scale * fraction;
 }
 
-/// By bisection of the error function.
-double normal_quantile(double probability) {
-  double low = -40.0;
-  double high = 40.0;
-  for (int i = 0; i < 80; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 /// P(|T| < t) for Student's t with a whole number of degrees of freedom.
 double student_central(double t, std::int64_t degrees) {
   const double theta = std::atan(t / std::sqrt(static_cast<double>(degrees)));
@@ -90,6 +79,16 @@ double near_normal_quantile(double z, double degrees) {
 }
 
 }  // namespace
+
+double normal_quantile(double probability) {
+  double low = -40.0;
+  double high = 40.0;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
 
 double chi_square_quantile(double probability, double degrees) {
   const double a = degrees / 2.0;

@@ -4,6 +4,10 @@
 
 namespace ghtrack {
 
+/// The value that a standard normal variable stays below with `probability`, by bisection of the
+/// error function.
+double normal_quantile(double probability);
+
 /// The value that a χ² variable with `degrees` degrees of freedom stays below with `probability`.
 /// Newton's method on the regularised incomplete gamma function P(degrees / 2, x / 2), by its
 /// series and continued fraction (Abramowitz & Stegun 6.5.29, 6.5.31), from the Wilson–Hilferty

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "sim/random.hpp"
@@ -71,6 +72,22 @@ TEST(MeanOf, PutsTheMedianBetweenOrderStatistics) {
   EXPECT_NEAR(median.ci95->low + median.ci95->high, 11.0, 1e-9);
   const std::vector<double> five = {2.0, 9.0, 4.0, 1.0, 3.0};
   EXPECT_EQ(mean_of(five, Average::kMedian).ci95->high, 9.0);
+}
+
+// Derived: of many values so many lie below the median as coins show heads, n / 2 ± 1.96 √n / 2; a
+// few more or less make no jump where the normal distribution takes over from the binomial.
+TEST(MeanOf, TakesOrderStatisticsOfManyValues) {
+  const auto ramp = [](int count) {
+    std::vector<double> values(static_cast<std::size_t>(count));
+    std::iota(values.begin(), values.end(), 0.0);
+    return values;
+  };
+  const Interval many = *mean_of(ramp(10001), Average::kMedian).ci95;
+  EXPECT_NEAR(many.low, 5000.0 - 0.5 * 1.959964 * std::sqrt(10001.0), 1e-3);
+  EXPECT_NEAR(many.high, 5000.0 + 0.5 * 1.959964 * std::sqrt(10001.0), 1e-3);
+  const Interval below = *mean_of(ramp(500), Average::kMedian).ci95;
+  const Interval above = *mean_of(ramp(501), Average::kMedian).ci95;
+  EXPECT_NEAR(above.high - above.low, below.high - below.low, 0.5);
 }
 
 // Property: one run that makes nearly all of the mean is said.
