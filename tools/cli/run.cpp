@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "tools/film/film.hpp"
 #include "tools/film/scene_drawing.hpp"
 #include "tools/metrics/run_metrics.hpp"
+#include "tools/record/atomic_file.hpp"
 #include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
 #include "tools/run/run.hpp"
@@ -94,7 +96,9 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   report.counts = counts.front();
   if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
-  write_file(folder / "metrics.json", to_json(report).dump(2) + "\n");
+  AtomicFile scores(folder / "metrics.json");
+  write_json(report, [&](std::string_view text) { scores.write(text); });
+  scores.commit();
   files.commit();
   results.commit();
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -215,6 +216,10 @@ class RunMetrics final : public RunObserver {
 
 /// The report as metrics.json has it; absent or infinite values become null.
 nlohmann::ordered_json to_json(const RunReport& report);
+
+/// The same as text with two columns for each level, object by object, so that memory does not grow
+/// with their number. @param write  appends to the file
+void write_json(const RunReport& report, const std::function<void(std::string_view)>& write);
 
 /// The report as text: one line per object, at most 120 columns, and the totals.
 std::string to_table(const RunReport& report, std::size_t width = 80);

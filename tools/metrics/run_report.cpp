@@ -106,9 +106,7 @@ std::string cell(const std::optional<double>& value) {
   return std::abs(*value) < 1e5 ? fmt::format("{:.3f}", *value) : fmt::format("{:.2e}", *value);
 }
 
-}  // namespace
-
-Json to_json(const RunReport& report) {
+Json json_without_objects(const RunReport& report) {
   const GospaOptions gospa = report.options.gospa();
   Json json;
   json["parameters"] = {{"gospa_c", gospa.cutoff},
@@ -117,9 +115,39 @@ Json to_json(const RunReport& report) {
                         {"match_distance", report.options.matching()}};
   json["total"] = total_json(report.total);
   json["arrivals"] = counts_json(report.counts);
+  return json;
+}
+
+/// The lines of a text behind the first moved to the right.
+std::string indented(std::string_view text, std::size_t columns) {
+  std::string moved;
+  for (const char c : text) {
+    moved += c;
+    if (c == '\n') moved.append(columns, ' ');
+  }
+  return moved;
+}
+
+}  // namespace
+
+Json to_json(const RunReport& report) {
+  Json json = json_without_objects(report);
   json["objects"] = Json::array();
   for (const ObjectReport& object : report.objects) json["objects"].push_back(object_json(object));
   return json;
+}
+
+void write_json(const RunReport& report, const std::function<void(std::string_view)>& write) {
+  std::string text = json_without_objects(report).dump(2);
+  text.resize(text.rfind("\n}"));
+  write(text + ",\n  \"objects\": [");
+  std::string_view separator = "\n    ";
+  for (const ObjectReport& object : report.objects) {
+    write(separator);
+    write(indented(object_json(object).dump(2), 4));
+    separator = ",\n    ";
+  }
+  write(report.objects.empty() ? "]\n}\n" : "\n  ]\n}\n");
 }
 
 std::string to_table(const RunReport& report, std::size_t width) {

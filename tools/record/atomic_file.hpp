@@ -39,6 +39,7 @@ class AtomicFile {
  private:
   void open_scratch();
   void flush();
+  void put(std::string_view bytes);
   void close();
   void rename_to(const std::filesystem::path& name);
   [[noreturn]] void fail(int error) const;

@@ -297,6 +297,17 @@ TEST(RunReport, HasNullForWhatDidNotOccur) {
   EXPECT_EQ(json.dump().find("nan"), std::string::npos);
 }
 
+// Property: written object by object, a report is the text of the whole.
+TEST(RunReport, IsWrittenInPiecesAsItIsInOne) {
+  RunReport report;
+  for (const char* name : {"", "one", "two \"quoted\""}) {
+    if (*name != '\0') report.objects.emplace_back().name = name;
+    std::string text;
+    write_json(report, [&](std::string_view piece) { text += piece; });
+    EXPECT_EQ(text, to_json(report).dump(2) + "\n");
+  }
+}
+
 // Property: a run without scans gives a report without a division by zero.
 TEST(RunReport, OfNothingIsFinite) {
   const RunReport report = RunMetrics({}, {}).report();
