@@ -219,7 +219,8 @@ void step_by_existence(Look& look, TrackerState& state) {
   for (std::size_t i = 0; i < unused.size(); ++i) {
     if (unused[i] * real < config.existence.drop) continue;
     Track& track = tracks.emplace_back(look.begin(look.grid.members()[i]));
-    track.id = -state.next_birth++;
+    track.birth = state.next_birth++;
+    track.id = -track.birth;
     track.existence = unused[i] * real;
     judge(config.existence, track, state.next_id);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tracker/association/belief_propagation.hpp"
 #include "tracker/association/k_best.hpp"
 #include "tracker/life_cycle.hpp"
 
@@ -18,6 +19,8 @@ constexpr std::size_t kMostHypotheses = 100;  // in a cluster
 constexpr double kWithin = 11.5;              // ln of how much likelier the likeliest one may be
 constexpr double kLeastOdds = 1e-4;           // of a pair that is considered
 constexpr double kMostWork = 4000.0;          // hypotheses times targets
+constexpr std::size_t kMostJoint = 24;        // targets that are explained together
+constexpr std::size_t kMostAlone = 12;        // explanations of one of more targets than that
 
 /// A branch in a scan: its detections, and what it costs to have none.
 struct Prospect {
@@ -96,13 +99,11 @@ class MultiScan {
   void run() {
     predict_all();
     look_.clock.finished(&StepTimes::predict);
-    gather();
+    const std::vector<std::vector<std::size_t>> groups = competitors();
     look_.clock.finished(&StepTimes::associate);
     state_.log_likelihood = evidence_.log_nobodys(nobodys_, members_.size());
     state_.clusters.clear();
-    for (Scene& scene : scenes_) {
-      if (!scene.cluster.targets.empty()) update(std::move(scene));
-    }
+    for (const std::vector<std::size_t>& group : groups) update(group);
     look_.clock.finished(&StepTimes::update);
     begin_alone();
     state_.undetected.after_look(evidence_, look_.scan.sensor);
@@ -146,35 +147,64 @@ class MultiScan {
     return result;
   }
 
-  /// Joins the clusters that compete for a detection now.
-  void gather() {
+  /// The scenes in groups that compete for a detection now, in their order; notes whose each
+  /// detection may be.
+  std::vector<std::vector<std::size_t>> competitors() {
+    std::vector<int> parent(scenes_.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
-      std::vector<int> rivals;
-      std::vector<int> mine;
       for (const auto& prospects : scenes_[i].prospects) {
         for (const Prospect& prospect : prospects) {
           for (const Candidate& candidate : prospect.candidates) {
             int& owner = scene_of_[candidate.detection];
-            if (owner != kNobody && owner != static_cast<int>(i)) rivals.push_back(owner);
-            mine.push_back(candidate.detection);
+            if (owner == kNobody) owner = static_cast<int>(i);
+            const int a = root(owner);
+            const int b = root(static_cast<int>(i));
+            parent[std::max(a, b)] = std::min(a, b);
           }
         }
       }
-      std::sort(rivals.begin(), rivals.end());
-      rivals.erase(std::unique(rivals.begin(), rivals.end()), rivals.end());
-      for (const int detection : mine) scene_of_[detection] = static_cast<int>(i);
-      for (const int rival : rivals) {
-        Scene& other = scenes_[rival];
-        for (const auto& prospects : other.prospects) {
-          for (const Prospect& prospect : prospects) {
-            for (const Candidate& c : prospect.candidates)
-              scene_of_[c.detection] = static_cast<int>(i);
-          }
-        }
-        Scene merged = std::move(other);
-        other = {};
-        join(merged, std::move(scenes_[i]));
-        scenes_[i] = std::move(merged);
+    }
+    std::vector<std::vector<std::size_t>> by_root(scenes_.size());
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      by_root[static_cast<std::size_t>(root(static_cast<int>(i)))].push_back(i);
+    }
+    std::erase_if(by_root, [](const auto& group) { return group.empty(); });
+    return by_root;
+  }
+
+  /// Few targets are explained together. Of many no list of joint explanations could be long
+  /// enough: each then has explanations of its own.
+  void update(const std::vector<std::size_t>& group) {
+    std::size_t targets = 0;
+    for (const std::size_t i : group) targets += scenes_[i].cluster.targets.size();
+    if (targets > kMostJoint) {
+      std::vector<Scene> alone;
+      for (const std::size_t i : group) separate(std::move(scenes_[i]), alone);
+      update_separately(std::move(alone));
+      return;
+    }
+    Scene joint = std::move(scenes_[group.front()]);
+    for (std::size_t i = 1; i < group.size(); ++i) join(joint, std::move(scenes_[group[i]]));
+    update(std::move(joint));
+  }
+
+  /// A scene of each target alone, with what the hypotheses say of it.
+  void separate(Scene&& scene, std::vector<Scene>& alone) const {
+    if (scene.cluster.targets.size() == 1) {
+      alone.push_back(std::move(scene));
+      return;
+    }
+    for (std::size_t t = 0; t < scene.cluster.targets.size(); ++t) {
+      Scene& own = alone.emplace_back();
+      own.cluster = part_of(scene.cluster, {t});
+      auto& prospects = own.prospects.emplace_back();
+      for (const Branch& branch : own.cluster.targets.front().branches) {
+        prospects.push_back(prospect_of(branch.track));
       }
     }
   }
@@ -200,8 +230,8 @@ class MultiScan {
       const Prospect& prospect = scene.prospects[t][hypothesis.branch_of[t]];
       problem.base -= prospect.log_missed;
       for (const Candidate& c : prospect.candidates) {
-        const auto local = std::lower_bound(detections.begin(), detections.end(), c.detection);
-        problem.table.candidates.push_back({static_cast<int>(local - detections.begin()), c.cost});
+        problem.table.candidates.push_back(
+            {static_cast<int>(index_in(detections, c.detection)), c.cost});
       }
       problem.table.close_row();
     }
@@ -297,13 +327,154 @@ class MultiScan {
       next.targets.emplace_back();
       for (Hypothesis& h : next.hypotheses) h.branch_of[old + j] = Hypothesis::kAbsent;
     }
-    simplify(next);
+    simplify(next, kMostHypotheses);
     split(std::move(next));
+  }
+
+  /// What each of several targets says of a detection, over all of its explanations.
+  struct Shares {
+    CandidateTable table;         // targets by detections, costs −ln of the odds
+    std::vector<double> odds;     // the same
+    std::vector<double> missed;   // of each target: that it has no detection, before they compete
+  };
+
+  static Shares shares_of(const std::vector<Scene>& scenes, const std::vector<int>& detections) {
+    Shares shares;
+    std::vector<double> with(detections.size(), 0.0);
+    for (const Scene& scene : scenes) {
+      std::fill(with.begin(), with.end(), 0.0);
+      double none = 0.0;
+      for (const Hypothesis& h : scene.cluster.hypotheses) {
+        const int branch = h.branch_of.front();
+        const double weight = std::exp(h.log_weight);
+        if (branch == Hypothesis::kAbsent) {
+          none += weight;
+          continue;
+        }
+        const Prospect& prospect = scene.prospects.front()[branch];
+        const double missed = weight * std::exp(prospect.log_missed);
+        none += missed;
+        for (const Candidate& c : prospect.candidates) {
+          with[index_in(detections, c.detection)] += missed * std::exp(-c.cost);
+        }
+      }
+      for (std::size_t j = 0; j < with.size(); ++j) {
+        if (with[j] <= kLeastOdds * none) continue;
+        shares.odds.push_back(with[j] / none);
+        shares.table.candidates.push_back({static_cast<int>(j), -std::log(with[j] / none)});
+      }
+      shares.table.close_row();
+      shares.missed.push_back(none);
+    }
+    return shares;
+  }
+
+  static std::size_t index_in(const std::vector<int>& detections, int detection) {
+    return static_cast<std::size_t>(
+        std::lower_bound(detections.begin(), detections.end(), detection) - detections.begin());
+  }
+
+  /// Targets that compete, each with explanations of its own: how probable its pairs are is found
+  /// by belief propagation, and shared among the explanations that say so (the track-oriented
+  /// marginal filter of Williams 2015, with a mixture for each target).
+  void update_separately(std::vector<Scene>&& scenes) {
+    std::vector<int> detections;
+    for (const Scene& scene : scenes) {
+      const std::vector<int> own = detections_of(scene);
+      detections.insert(detections.end(), own.begin(), own.end());
+    }
+    std::sort(detections.begin(), detections.end());
+    detections.erase(std::unique(detections.begin(), detections.end()), detections.end());
+    const auto count = static_cast<int>(detections.size());
+    const Shares shares = shares_of(scenes, detections);
+    const Marginals marginals =
+        marginals_by_belief_propagation(shares.table, shares.odds, count);
+    const std::vector<int> likeliest = assign_globally(shares.table, count, 0.0);
+    state_.log_likelihood += marginals.log_sum;
+    std::vector<double> pair(detections.size());
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      state_.log_likelihood += std::log(shares.missed[i]);
+      std::fill(pair.begin(), pair.end(), 0.0);
+      for (int k = shares.table.row_start[i]; k < shares.table.row_start[i + 1]; ++k) {
+        // of a pair: how much likelier than before they competed
+        pair[shares.table.candidates[k].detection] =
+            marginals.pair[k] / (shares.odds[k] * shares.missed[i]);
+      }
+      const int shown = likeliest[i] == kMissed ? 0 : detections[likeliest[i]] + 1;
+      go_on(std::move(scenes[i]), detections, pair, marginals.missed[i] / shares.missed[i], shown);
+    }
+    for (std::size_t j = 0; j < detections.size(); ++j) {
+      const double unused = marginals.unused[j];
+      if (unused * real_ < look_.config().existence.drop) continue;
+      TrackCluster& cluster = state_.clusters.emplace_back();
+      cluster.targets.push_back(begin(detections[j], real_));
+      cluster.hypotheses.push_back({.log_weight = std::log(unused), .branch_of = {0}});
+      if (unused < 1.0) {
+        cluster.hypotheses.push_back(
+            {.log_weight = std::log1p(-unused), .branch_of = {Hypothesis::kAbsent}});
+      }
+    }
+  }
+
+  /// The explanations of one target after a scan in which it competed.
+  /// @param pair    of each detection, how much likelier that is than before
+  /// @param missed  the same of none
+  /// @param shown   the detection that the explanation which is shown should have
+  void go_on(Scene&& scene, const std::vector<int>& detections, const std::vector<double>& pair,
+             double missed, int shown) {
+    constexpr double kNegligible = 1e-4;
+    TrackCluster next;
+    TrackTree& target = next.targets.emplace_back();
+    target.birth = scene.cluster.targets.front().birth;
+    target.id = scene.cluster.targets.front().id;
+    double exists = 0.0;
+    const auto add = [&](const Branch& branch, const Prospect& prospect, int member,
+                         double weight) {
+      if (weight < kNegligible) return;
+      Branch followed = follow(branch, prospect, member);
+      if (!is_worth_keeping(followed.track)) return;
+      exists += weight * *followed.track.existence;
+      next.hypotheses.push_back({.log_weight = std::log(weight),
+                                 .branch_of = {static_cast<int>(target.branches.size())}});
+      target.branches.push_back(std::move(followed));
+    };
+    for (const Hypothesis& h : scene.cluster.hypotheses) {
+      const double weight = std::exp(h.log_weight);
+      const int index = h.branch_of.front();
+      if (index == Hypothesis::kAbsent) {
+        if (weight * missed < kNegligible) continue;
+        next.hypotheses.push_back(
+            {.log_weight = std::log(weight * missed), .branch_of = {Hypothesis::kAbsent}});
+        continue;
+      }
+      const Branch& branch = scene.cluster.targets.front().branches[index];
+      const Prospect& prospect = scene.prospects.front()[index];
+      const double none = weight * std::exp(prospect.log_missed);
+      add(branch, prospect, kMissed, none * missed);
+      for (const Candidate& c : prospect.candidates) {
+        const double likelier = pair[index_in(detections, c.detection)];
+        add(branch, prospect, c.detection, none * std::exp(-c.cost) * likelier);
+      }
+    }
+    if (exists < look_.config().existence.drop) return;
+    std::stable_sort(next.hypotheses.begin(), next.hypotheses.end(),
+                     [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
+    simplify(next, kMostAlone);
+    const auto as_shown = std::find_if(
+        next.hypotheses.begin(), next.hypotheses.end(), [&](const Hypothesis& h) {
+          const int branch = h.branch_of.front();
+          return branch != Hypothesis::kAbsent &&
+                 next.targets.front().branches[branch].recent.front() == shown;
+        });
+    if (as_shown != next.hypotheses.end()) {
+      std::rotate(next.hypotheses.begin(), as_shown, as_shown + 1);
+    }
+    state_.clusters.push_back(part_of(next, {0}));
   }
 
   /// Hypotheses that agree on the last scans, whichever target they give the detections to, are
   /// one: the likelier one stays, with the weight of both.
-  void simplify(TrackCluster& cluster) const {
+  static void simplify(TrackCluster& cluster, std::size_t most) {
     std::map<std::uint64_t, std::size_t> known;
     std::vector<Hypothesis> kept;
     for (Hypothesis& h : cluster.hypotheses) {  // likeliest first
@@ -315,7 +486,7 @@ class MultiScan {
       double& weight = kept[place->second].log_weight;
       weight += std::log1p(std::exp(h.log_weight - weight));
     }
-    cut(kept, kMostHypotheses);
+    cut(kept, most);
     normalise(kept);
     cluster.hypotheses = std::move(kept);
   }
@@ -356,7 +527,10 @@ class MultiScan {
       for (std::size_t u = t; u < cluster.targets.size(); ++u) {
         if (group[u] == static_cast<int>(t)) members.push_back(u);
       }
-      state_.clusters.push_back(part_of(cluster, members));
+      TrackCluster part = part_of(cluster, members);
+      cut(part.hypotheses, kMostHypotheses);
+      normalise(part.hypotheses);
+      state_.clusters.push_back(std::move(part));
     }
   }
 
@@ -432,7 +606,6 @@ class MultiScan {
         weight = more + std::log(std::exp(weight - more) + std::exp(own.log_weight - more));
       }
     }
-    cut(part.hypotheses, kMostHypotheses);
     normalise(part.hypotheses);
     return part;
   }
@@ -448,6 +621,17 @@ class MultiScan {
     }
   }
 
+  /// Of the only target of a cluster, over all hypotheses.
+  static double existence_of(const TrackCluster& cluster) {
+    double sum = 0.0;
+    for (const Hypothesis& h : cluster.hypotheses) {
+      const int branch = h.branch_of.front();
+      if (branch == Hypothesis::kAbsent) continue;
+      sum += std::exp(h.log_weight) * *cluster.targets.front().branches[branch].track.existence;
+    }
+    return sum;
+  }
+
   /// The tracks of the likeliest hypotheses.
   void report() {
     state_.tracks.clear();
@@ -457,6 +641,8 @@ class MultiScan {
         if (likeliest.branch_of[t] == Hypothesis::kAbsent) continue;
         TrackTree& target = cluster.targets[t];
         Track& track = state_.tracks.emplace_back(target.branches[likeliest.branch_of[t]].track);
+        if (cluster.targets.size() == 1) track.existence = existence_of(cluster);
+        track.birth = target.birth;
         track.id = target.id > 0 ? target.id : -target.birth;
         judge(look_.config().existence, track, state_.next_id);
         if (track.id > 0) target.id = track.id;

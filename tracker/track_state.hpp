@@ -15,7 +15,8 @@ namespace ghtrack {
 
 /// One hypothesis of a target.
 struct Track {
-  int id = 0;  // with `life_cycle: existence` negative until confirmed
+  int id = 0;     // with `life_cycle: existence` negative until confirmed
+  int birth = 0;  // counts from 1 in the order of birth
   TrackStatus status = TrackStatus::kTentative;
   std::optional<double> existence;  // probability that there is a target; absent: not weighed
   int unseen = 0;                   // looks since its last detection

@@ -24,7 +24,9 @@
 #include "tools/data/formats.hpp"
 #include "tools/data/scan_reader.hpp"
 #include "tools/run/box_tracking.hpp"
+#include "tools/run/learning.hpp"
 #include "tools/run/offline.hpp"
+#include "tools/run/online.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/mot_folder.hpp"
 #include "tools/record/run_writer.hpp"
@@ -37,7 +39,7 @@ namespace fs = std::filesystem;
 /// Wall time of each stage over all files [s].
 class StageTimes {
  public:
-  enum Stage { kRead, kTrack, kWrite };
+  enum Stage { kRead, kLearn, kTrack, kWrite };
 
   /// Runs one stage.
   template <class Work>
@@ -62,8 +64,9 @@ class StageTimes {
                            steps_->predict, steps_->associate, steps_->update, steps_->begin);
     }
     return fmt::format(
-        "read {:.6f} s, track {:.6f} s{}, write {:.6f} s; {} scans, {:.0f} per second",
-        seconds_[kRead], seconds_[kTrack], stages, seconds_[kWrite], scans_,
+        "read {:.6f} s, learn {:.6f} s, track {:.6f} s{}, write {:.6f} s; {} scans, {:.0f} per "
+        "second",
+        seconds_[kRead], seconds_[kLearn], seconds_[kTrack], stages, seconds_[kWrite], scans_,
         static_cast<double>(scans_) / std::max(seconds_[kTrack], 1e-9));
   }
 
@@ -76,7 +79,7 @@ class StageTimes {
     Clock::time_point start = Clock::now();
   };
 
-  double seconds_[3] = {};
+  double seconds_[4] = {};
   std::optional<StepTimes> steps_;
   std::size_t scans_ = 0;
 };
@@ -135,7 +138,7 @@ class GeoTracks {
   std::map<int, GeoTrack> by_id_;
 };
 
-void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTimes& times,
+void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& times,
                const Manners& manners) {
   ScanReader reader = times.of(StageTimes::kRead, [&] {
     return ScanReader(options.detections.front(), read_options(options.data));
@@ -146,19 +149,45 @@ void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTi
   if ((options.degrees || geographic) && !summary.origin) {
     throw UsageError("track: --degrees, GPX and GeoJSON need data in degrees");
   }
-  const ScanSource scans{.next =
-                             [&](Scan& scan) {
-                               stop_if_interrupted();
-                               times.count_scans(1);
-                               return reader.next(scan);
-                             },
-                         .period = summary.period,
-                         .sensors = std::max(1, static_cast<int>(summary.sensors.size()))};
+  ScanSource scans{.next =
+                       [&](Scan& scan) {
+                         stop_if_interrupted();
+                         return reader.next(scan);
+                       },
+                   .period = summary.period};
+  if (!summary.sensors.empty()) scans.sensors = summary.sensors;
+  const auto tell_what_was_learned = [&](const LearnedConfig& learned) {
+    if (manners.quiet) return;
+    for (const std::string& line : describe(learned)) tell("ghtrack: {}", line);
+  };
+  const bool learns = leaves_open(config, scans.sensors, summary.has_sigma);
+  if (learns && !options.online) {
+    const LearnedConfig learned =
+        times.of(StageTimes::kLearn, [&] { return learn_offline(config, scans); });
+    reader.rewind();
+    config = learned.config;
+    tell_what_was_learned(learned);
+  }
   StepTimes steps;
   TrackerState state;
   const auto track_all = [&](const auto& on_scan) {
-    times.of(StageTimes::kTrack,
-             [&] { state = track_offline(config, scans, on_scan, &steps); });
+    times.of(StageTimes::kTrack, [&] {
+      const auto on_tracked = [&](const TrackSnapshot& now) {
+        times.count_scans(1);
+        on_scan(now);
+      };
+      if (learns && options.online) {
+        std::optional<LearnedConfig> last;
+        state = track_online(
+            config, scans, on_tracked, [&](const LearnedConfig& now) { last = now; }, &steps);
+        if (last) {
+          tell_what_was_learned(*last);
+          config = last->config;
+        }
+      } else {
+        state = track_offline(config, scans, on_tracked, &steps);
+      }
+    });
     times.split_tracking(steps);
   };
   if (geographic) {
@@ -172,6 +201,9 @@ void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTi
                        geographic_columns(summary.origin, options.degrees));
     track_all([&](const TrackSnapshot& now) { writer.add(now); });
     times.of(StageTimes::kWrite, [&] { writer.commit(); });
+  }
+  if (!options.save_config.empty()) {
+    write_file(options.save_config, schema::write_configuration(config));
   }
   report_refusals(state, manners);
 }
