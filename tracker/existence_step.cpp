@@ -45,10 +45,10 @@ Competition compete(Look& look, const Evidence& evidence, double nobodys,
     const double missed = 1.0 - r * due;
     // odds: r p N(ν; 0, S) / (nobody's · (1 − r p))
     const double base = std::log(2.0 * std::numbers::pi * nobodys * missed / (r * p));
-    look.grid.find_in_gate(track.prediction, look.config().gate, gated);
-    for (const auto& [member, squared_distance, determinant] : gated) {
-      const double cost = base + 0.5 * (squared_distance + std::log(determinant));
-      if (cost < dearest) result.table.candidates.push_back({member, cost});
+    look.grid.find_in_gate(track.reach, look.config().gate, gated);
+    for (const Gated& near : gated) {
+      const double cost = base + surprise(track, near, look.grid.members()[near.member]);
+      if (cost < dearest) result.table.candidates.push_back({near.member, cost});
     }
     result.table.close_row();
     result.detection.push_back(due);

@@ -139,10 +139,10 @@ class MultiScan {
     result.log_missed = std::log(missed);
     const double base = std::log(2.0 * std::numbers::pi * nobodys_ * missed / (r * p));
     std::vector<Gated> gated;
-    look_.grid.find_in_gate(track.prediction, look_.config().gate, gated);
-    for (const auto& [member, squared_distance, determinant] : gated) {
-      const double cost = base + 0.5 * (squared_distance + std::log(determinant));
-      if (cost < -std::log(kLeastOdds)) result.candidates.push_back({member, cost});
+    look_.grid.find_in_gate(track.reach, look_.config().gate, gated);
+    for (const Gated& near : gated) {
+      const double cost = base + surprise(track, near, members_[near.member]);
+      if (cost < -std::log(kLeastOdds)) result.candidates.push_back({near.member, cost});
     }
     return result;
   }

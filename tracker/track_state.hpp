@@ -8,6 +8,7 @@
 #include "sensors/detection.hpp"
 #include "tracker/filters/filter.hpp"
 #include "tracker/hit_history.hpp"
+#include "tracker/nearest_tree.hpp"
 #include "tracker/prediction.hpp"
 #include "tracker/track.hpp"
 
@@ -28,6 +29,7 @@ struct Track {
   Filter filter;
   std::string label;                                                // of the first detection
   Prediction prediction;                                            // of this scan's detection
+  Prediction reach;                                                 // as far as that may lie
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of this scan's residual [m²]
   std::optional<Eigen::Vector2d> residual;                          // of this scan's detection
 };
@@ -38,6 +40,10 @@ void predict(Track& track, double dt);
 /// Starts a track at a detection.
 /// @param filter  waits for its first measurement
 Track begin_track(const Filter& filter, const Scan& scan, std::size_t detection);
+
+/// How unlikely a detection in the reach of a track is if it is the track's own: −ln of its density
+/// times 2 π m².
+double surprise(const Track& track, const Gated& gated, const PlacedDetection& detection);
 
 /// Gives the track the detection that is its own.
 void hit(Track& track, const PlacedDetection& found, const Scan& scan);

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace ghtrack {
 namespace {
 
 constexpr double kClearly = 5.0;          // in ln p, and
 constexpr double kClearlyPerFix = 0.005;  // for each detection
+
+constexpr double kSeldom = 0.01;  // probability of a change of motion, for what leaves a filter
 
 double typical_sigma(std::span<const Eigen::Vector2d> variance) {
   double least = variance.front().prod();
@@ -32,7 +35,30 @@ KalmanCaConfig accelerating(double density, double initial_speed, double initial
   return config;
 }
 
+ImmConfig mixed(const std::vector<std::pair<const char*, double>>& densities,
+                double initial_speed, double switching = ImmConfig().switching) {
+  ImmConfig config;
+  config.switching = switching;
+  for (const auto& [name, density] : densities) {
+    config.filters[name] = steady(density, initial_speed);
+  }
+  return config;
+}
+
+/// Of white noise that makes the velocity new in an interval.
+double nimblest(double process_density, double initial_speed, double interval) {
+  return std::max(10.0 * process_density, initial_speed * initial_speed / interval);
+}
+
 }  // namespace
+
+ImmConfig bank(double process_density, double initial_speed, double interval) {
+  const double most = nimblest(process_density, initial_speed, interval);
+  return mixed({{"steady", 0.1 * process_density},
+                {"turning", std::sqrt(process_density * most)},
+                {"nimble", most}},
+               initial_speed, kSeldom);
+}
 
 double log_likelihood(const FilterConfig& config, std::span<const Path* const> paths,
                       std::span<const Eigen::Vector2d> variance, double interval) {
@@ -79,12 +105,12 @@ FilterChoice choose_filter(std::span<const Path* const> paths,
   for (const double jerkiness : {0.003, 0.1}) {
     consider(accelerating(jerkiness * q / (interval * interval), initial_speed, acceleration));
   }
-  for (const auto& [low, high] : {std::pair(0.1, 10.0), std::pair(0.003, 30.0)}) {
-    ImmConfig mixed;
-    mixed.filters["steady"] = steady(low * q, initial_speed);
-    mixed.filters["nimble"] = steady(high * q, initial_speed);
-    consider(mixed);
-  }
+  const double most = nimblest(q, initial_speed, interval);
+  consider(mixed({{"steady", 0.1 * q}, {"nimble", 10.0 * q}}, initial_speed));
+  consider(mixed({{"steady", 0.003 * q}, {"nimble", 30.0 * q}}, initial_speed));
+  consider(mixed({{"steady", 0.3 * q}, {"nimble", most}}, initial_speed, kSeldom));
+  consider(mixed({{"steady", 0.003 * q}, {"nimble", most}}, initial_speed, kSeldom));
+  consider(mixed({{"steady", 0.003 * q}, {"turning", q}, {"nimble", most}}, initial_speed));
   return best;
 }
 

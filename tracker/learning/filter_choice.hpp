@@ -22,6 +22,11 @@ struct FilterChoice {
 double log_likelihood(const FilterConfig& filter, std::span<const Path* const> paths,
                       std::span<const Eigen::Vector2d> variance, double interval);
 
+/// Interacting filters that span the tracking indices that there may be: from one steadier than the
+/// usual process noise to one whose velocity is new in every interval. Nothing that they track can
+/// leave them soon, whatever it does.
+ImmConfig bank(double process_density, double initial_speed, double interval);
+
 /// The filter that makes what the tracks were given likeliest: a Kalman filter of nearly constant
 /// velocity or acceleration, or interacting ones from steady to nimble, which cost more and have to
 /// be clearly better.

@@ -19,6 +19,7 @@ constexpr int kMostPasses = 6;          // with filters of constant velocity
 constexpr double kFirstDetection = 0.8; // probability, until it is known
 constexpr double kFirstIndex = 0.3;     // squared tracking index q T³ / σ²
 constexpr double kFalseAtLeast = 0.02;  // of the detections, until it is known
+constexpr double kClearly = 5.0;        // in ln p: by which a costlier filter has to be better
 constexpr std::size_t kFewestTracks = 2;  // for a class to get a filter of its own
 constexpr std::size_t kFewestFixes = 30;
 
@@ -94,6 +95,9 @@ class Learner {
     for (int i = 0; i < kMostPasses; ++i) {
       Pass pass = track(now);
       if (pass.paths.empty()) break;
+#ifdef DBG
+      fprintf(stderr, "pass %d L %.2f paths %zu sigma %.3g %.3g q %.3g v0 %.3g Pd %.3f clutter %.3g\n", i, pass.log_likelihood, pass.paths.size(), now.motion.noise[0].x.value, now.motion.noise[0].y.value, now.motion.process_density.at(kAnyClass).value, now.motion.initial_speed, now.detection_probability[0].value, now.clutter[0].value);
+#endif
       const bool is_better = pass.log_likelihood > best_pass.log_likelihood;
       Parameters next = refined(now, pass, i == 0);
       const bool is_settled = change(now, next) < 0.1;
@@ -103,6 +107,21 @@ class Learner {
       }
       now = std::move(next);
       if (is_settled) break;
+    }
+    if (!gives_filters() && !best_pass.paths.empty()) {
+      // What leaves a filter of constant velocity is lost there; a bank holds it.
+      Parameters wide = best;
+      wide.filters[kAnyClass] = bank(best.motion.process_density.at(kAnyClass).value,
+                                     best.motion.initial_speed, interval_);
+      Pass held = track(wide);
+#ifdef DBG
+      fprintf(stderr, "bank L %.2f paths %zu\n", held.log_likelihood, held.paths.size());
+#endif
+      if (held.log_likelihood > best_pass.log_likelihood + kClearly) {
+        best = refined(wide, held, true);
+        best.filters = wide.filters;
+        best_pass = std::move(held);
+      }
     }
     return result(best, best_pass);
   }
