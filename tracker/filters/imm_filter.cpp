@@ -19,6 +19,9 @@ struct Lifted {
 };
 
 Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
+  const bool is_alike = from.motion().index() == to.motion().index() &&
+                        from.state().size() == to.state().size();
+  if (is_alike) return {from.state(), from.covariance()};
   Lifted known{to.state(), to.covariance()};
   const Eigen::Index n = known.x.size();
   std::vector<int> source(static_cast<std::size_t>(n), -1);
@@ -83,11 +86,14 @@ void ImmFilter::mix(double dt) {
 
   std::vector<double> arrived(modes_.size());
   std::vector<Lifted> mixtures;
+  mixtures.reserve(modes_.size());
+  std::vector<std::pair<double, Lifted>> parts;
+  parts.reserve(modes_.size());
   for (std::size_t j = 0; j < modes_.size(); ++j) {
     const MotionFilter& own = modes_[j].filter;
     Lifted mixture{MotionState::Zero(own.state().size()),
                    MotionCovariance::Zero(own.state().size(), own.state().size())};
-    std::vector<std::pair<double, Lifted>> parts;
+    parts.clear();
     for (std::size_t i = 0; i < modes_.size(); ++i) {
       const double weight = (i == j ? stay : leave) * modes_[i].weight;
       arrived[j] += weight;

@@ -45,19 +45,17 @@ ImmConfig mixed(const std::vector<std::pair<const char*, double>>& densities,
   return config;
 }
 
-/// Of white noise that makes the velocity new in an interval.
+/// Of white noise that turns the velocity round in an interval.
 double nimblest(double process_density, double initial_speed, double interval) {
-  return std::max(10.0 * process_density, initial_speed * initial_speed / interval);
+  return std::max(10.0 * process_density, 4.0 * initial_speed * initial_speed / interval);
 }
 
 }  // namespace
 
 ImmConfig bank(double process_density, double initial_speed, double interval) {
   const double most = nimblest(process_density, initial_speed, interval);
-  return mixed({{"steady", 0.1 * process_density},
-                {"turning", std::sqrt(process_density * most)},
-                {"nimble", most}},
-               initial_speed, kSeldom);
+  return mixed({{"steady", 0.01 * process_density}, {"turning", process_density}, {"nimble", most}},
+               initial_speed);
 }
 
 double log_likelihood(const FilterConfig& config, std::span<const Path* const> paths,
@@ -86,7 +84,7 @@ double log_likelihood(const FilterConfig& config, std::span<const Path* const> p
 FilterChoice choose_filter(std::span<const Path* const> paths,
                            std::span<const Eigen::Vector2d> variance, double process_density,
                            double initial_speed, double interval) {
-  constexpr std::size_t kMostFixes = 1000;
+  constexpr std::size_t kMostFixes = 500;
   std::vector<const Path*> enough;
   std::size_t fixes = 0;
   for (const Path* path : paths) fixes += path->fixes.size();
@@ -107,10 +105,7 @@ FilterChoice choose_filter(std::span<const Path* const> paths,
   }
   const double most = nimblest(q, initial_speed, interval);
   consider(mixed({{"steady", 0.1 * q}, {"nimble", 10.0 * q}}, initial_speed));
-  consider(mixed({{"steady", 0.003 * q}, {"nimble", 30.0 * q}}, initial_speed));
-  consider(mixed({{"steady", 0.3 * q}, {"nimble", most}}, initial_speed, kSeldom));
-  consider(mixed({{"steady", 0.003 * q}, {"nimble", most}}, initial_speed, kSeldom));
-  consider(mixed({{"steady", 0.003 * q}, {"turning", q}, {"nimble", most}}, initial_speed));
+  consider(mixed({{"steady", 0.01 * q}, {"nimble", most}}, initial_speed, kSeldom));
   return best;
 }
 

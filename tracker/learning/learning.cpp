@@ -45,6 +45,13 @@ struct Pass {
   std::vector<Path> paths;
 };
 
+/// What may be the result.
+struct Candidate {
+  Parameters parameters;
+  Pass pass;
+  std::map<std::string, LearnedClass> classes;
+};
+
 double median(std::vector<double> values, double otherwise) {
   if (values.empty()) return otherwise;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -89,41 +96,23 @@ class Learner {
   }
 
   LearnedTracker run() {
-    Parameters now = begin();
-    Parameters best = now;
-    Pass best_pass;
-    for (int i = 0; i < kMostPasses; ++i) {
-      Pass pass = track(now);
-      if (pass.paths.empty()) break;
-#ifdef DBG
-      fprintf(stderr, "pass %d L %.2f paths %zu sigma %.3g %.3g q %.3g v0 %.3g Pd %.3f clutter %.3g\n", i, pass.log_likelihood, pass.paths.size(), now.motion.noise[0].x.value, now.motion.noise[0].y.value, now.motion.process_density.at(kAnyClass).value, now.motion.initial_speed, now.detection_probability[0].value, now.clutter[0].value);
-#endif
-      const bool is_better = pass.log_likelihood > best_pass.log_likelihood;
-      Parameters next = refined(now, pass, i == 0);
-      const bool is_settled = change(now, next) < 0.1;
-      if (is_better) {
-        best = now;
-        best_pass = std::move(pass);
-      }
-      now = std::move(next);
-      if (is_settled) break;
+    Candidate best = at_constant_velocity();
+    if (gives_filters() || best.pass.paths.empty()) return result(best);
+    // What leaves a filter of constant velocity is lost there; a bank holds it.
+    std::vector<Candidate> candidates;
+    candidates.push_back(with_bank(best.parameters));
+    if (!candidates.front().pass.paths.empty()) {
+      Candidate chosen = candidates.front();
+      chosen.parameters = refined(chosen.parameters, chosen.pass, true);
+      choose_filters(chosen);
+      chosen.pass = track(chosen.parameters);
+      candidates.push_back(std::move(chosen));
     }
-    if (!gives_filters() && !best_pass.paths.empty()) {
-      // What leaves a filter of constant velocity is lost there; a bank holds it.
-      Parameters wide = best;
-      wide.filters[kAnyClass] = bank(best.motion.process_density.at(kAnyClass).value,
-                                     best.motion.initial_speed, interval_);
-      Pass held = track(wide);
-#ifdef DBG
-      fprintf(stderr, "bank L %.2f paths %zu\n", held.log_likelihood, held.paths.size());
-#endif
-      if (held.log_likelihood > best_pass.log_likelihood + kClearly) {
-        best = refined(wide, held, true);
-        best.filters = wide.filters;
-        best_pass = std::move(held);
-      }
+    if (!choose_filters(best)) best.pass = track(best.parameters);
+    for (Candidate& candidate : candidates) {
+      if (merit(candidate.pass) > merit(best.pass) + kClearly) best = std::move(candidate);
     }
-    return result(best, best_pass);
+    return result(best);
   }
 
  private:
@@ -143,9 +132,45 @@ class Learner {
     return all;
   }
 
-  Parameters begin() {
+  /// ln p, less what each track's coming and going costs to say: ln of the scans there are, as in a
+  /// minimum description length (Rissanen 1978). A target that is lost and found again is two.
+  double merit(const Pass& pass) const {
+    const auto scans = static_cast<double>(scans_.size());
+    return pass.log_likelihood - static_cast<double>(pass.paths.size()) * std::log(scans);
+  }
+
+  Candidate with_bank(const Parameters& usual) {
+    Candidate candidate{usual, {}, {}};
+    const Learned& density = usual.motion.process_density.at(kAnyClass);
+    const FilterConfig filter = bank(density.value, usual.motion.initial_speed, interval_);
+    candidate.parameters.filters = {{kAnyClass, filter}};
+    candidate.pass = track(candidate.parameters);
+    candidate.classes[kAnyClass] = {.process_density = density,
+                                    .filter = filter,
+                                    .gain = 0.0,
+                                    .tracks = static_cast<int>(candidate.pass.paths.size())};
+    return candidate;
+  }
+
+  /// Refines the numbers from pass to pass, with filters of constant velocity or those given.
+  Candidate at_constant_velocity() {
+    Candidate best;
+    Parameters now = begin();
+    best.parameters = now;
+    for (int i = 0; i < kMostPasses; ++i) {
+      Pass pass = track(now);
+      if (pass.paths.empty()) break;
+      Parameters next = refined(now, pass, i == 0);
+      const bool is_settled = change(now, next) < 0.1;
+      if (pass.log_likelihood > best.pass.log_likelihood) best = {now, std::move(pass), {}};
+      now = std::move(next);
+      if (is_settled) break;
+    }
+    return best;
+  }
+
+  Parameters begin() const {
     const auto scales = first_guess(looks());
-    found_ = scales.has_value();
     const double fallback = extent_ > 0.0 ? 0.01 * extent_ : 1.0;
     double noise = std::max(scales ? scales->noise : fallback, 1e-6 * extent_);
     if (said_.front().noise) noise = std::sqrt(said_.front().noise->prod());
@@ -215,7 +240,7 @@ class Learner {
   TrackerConfig tracking(const Parameters& p) const {
     TrackerConfig config;
     config.gate = config_.gate;
-    config.existence = p.existence;
+    config.existence = config_.existence;  // of all candidates the same
     config.filters = p.filters;
     return config;
   }
@@ -243,6 +268,9 @@ class Learner {
     }
     ++passes_;
     pass.paths = recorder.paths();
+#ifdef DBG
+      fprintf(stderr, "pass %d L %.2f paths %zu sigma %.3g %.3g q %.3g v0 %.3g Pd %.3f clutter %.3g\n", passes_, pass.log_likelihood, pass.paths.size(), p.motion.noise[0].x.value, p.motion.noise[0].y.value, p.motion.process_density.at(kAnyClass).value, p.motion.initial_speed, p.detection_probability[0].value, p.clutter[0].value);
+#endif
     return pass;
   }
 
@@ -325,8 +353,7 @@ class Learner {
       }
     }
     interval_ = std::max(median(intervals, interval_), 1e-9 * interval_);
-    fit_ = fit_motion(pass.paths, before.motion, interval_, first);
-    next.motion = fit_.model;
+    next.motion = fit_motion(pass.paths, before.motion, interval_, first).model;
     for (LearnedMotion::Noise& noise : next.motion.noise) {
       for (Learned* axis : {&noise.x, &noise.y}) {
         if (!axis->is_given) axis->value = std::max(axis->value, 1e-6 * extent_);
@@ -364,11 +391,13 @@ class Learner {
     return greatest;
   }
 
-  LearnedTracker result(const Parameters& p, const Pass& pass) {
+  LearnedTracker result(const Candidate& best) {
+    const auto& [p, pass, classes] = best;
     LearnedTracker learned;
     learned.config = config_;
     learned.config.existence = p.existence;
     learned.config.filters = p.filters;
+    learned.classes = classes;
     learned.initial_speed = p.motion.initial_speed;
     for (std::size_t s = 0; s < said_.size(); ++s) {
       learned.sensors.push_back({.noise = p.motion.noise[s],
@@ -381,46 +410,57 @@ class Learner {
     double explained = 0.0;
     for (const Path& path : pass.paths) explained += static_cast<double>(path.fixes.size());
     learned.explained = explained / std::max(1.0, detections_);
-    learned.nis = fit_.nis;
-    if (!gives_filters() && !pass.paths.empty()) choose_filters(p, pass, learned);
     learned.passes = passes_;
     return learned;
   }
 
-  /// Gives each class that shows enough tracks a filter of its own, and one to the rest.
-  void choose_filters(const Parameters& p, const Pass& pass, LearnedTracker& learned) {
-    std::map<std::string, std::vector<const Path*>> by_class;
-    for (const Path& path : pass.paths) {
-      by_class[kAnyClass].push_back(&path);
-      if (!path.label.empty() && path.label != kAnyClass) by_class[path.label].push_back(&path);
+  /// The paths by class: of each that shows enough tracks, and of all.
+  static std::map<std::string, std::vector<const Path*>> by_class(const std::vector<Path>& paths) {
+    std::map<std::string, std::vector<const Path*>> classes;
+    for (const Path& path : paths) {
+      classes[kAnyClass].push_back(&path);
+      if (!path.label.empty() && path.label != kAnyClass) classes[path.label].push_back(&path);
     }
-    std::erase_if(by_class, [](const auto& entry) {
+    std::erase_if(classes, [](const auto& entry) {
       std::size_t fixes = 0;
       for (const Path* path : entry.second) fixes += path->fixes.size();
-      return entry.first != kAnyClass &&
-             (entry.second.size() < kFewestTracks || fixes < kFewestFixes);
+      const bool is_enough = entry.second.size() >= kFewestTracks && fixes >= kFewestFixes;
+      return entry.first != kAnyClass && !is_enough;
     });
-    LearnedMotion motion = p.motion;
-    for (const auto& [label, paths] : by_class) {
-      motion.process_density.emplace(label, p.motion.process_density.at(kAnyClass));
+    return classes;
+  }
+
+  /// Gives each class that shows enough tracks a filter of its own, and one to the rest.
+  /// @return whether all are of constant velocity, with the process noise that they had
+  bool choose_filters(Candidate& candidate) const {
+    const auto paths = by_class(candidate.pass.paths);
+    LearnedMotion& motion = candidate.parameters.motion;
+    const Learned any = motion.process_density.at(kAnyClass);
+    if (paths.size() > 1) {
+      LearnedMotion start = motion;
+      for (const auto& [label, own] : paths) start.process_density.emplace(label, any);
+      motion.process_density =
+          fit_motion(candidate.pass.paths, start, interval_, false).model.process_density;
+      motion.process_density[kAnyClass] = any;
     }
-    if (by_class.size() > 1) motion = fit_motion(pass.paths, motion, interval_, false).model;
     std::vector<Eigen::Vector2d> variance;
-    for (const LearnedMotion::Noise& noise : p.motion.noise) {
+    for (const LearnedMotion::Noise& noise : motion.noise) {
       variance.push_back(Eigen::Vector2d(noise.x.value, noise.y.value).cwiseAbs2());
     }
-    learned.config.filters.clear();
-    for (const auto& [label, paths] : by_class) {
-      const Learned& density =
-          label == kAnyClass ? p.motion.process_density.at(label) : motion.process_density.at(label);
+    candidate.parameters.filters.clear();
+    bool is_usual = paths.size() == 1;
+    for (const auto& [label, own] : paths) {
+      const Learned& density = motion.process_density.at(label);
       const FilterChoice choice =
-          choose_filter(paths, variance, density.value, p.motion.initial_speed, interval_);
-      learned.classes[label] = {.process_density = density,
-                                .filter = choice.filter,
-                                .gain = choice.gain,
-                                .tracks = static_cast<int>(paths.size())};
-      learned.config.filters[label] = choice.filter;
+          choose_filter(own, variance, density.value, motion.initial_speed, interval_);
+      is_usual = is_usual && choice.gain == 0.0;
+      candidate.classes[label] = {.process_density = density,
+                                  .filter = choice.filter,
+                                  .gain = choice.gain,
+                                  .tracks = static_cast<int>(own.size())};
+      candidate.parameters.filters[label] = choice.filter;
     }
+    return is_usual;
   }
 
   const TrackerConfig& config_;
@@ -432,9 +472,7 @@ class Learner {
   double detections_ = 0.0;
   double extent_ = 0.0;    // the longest side
   double interval_ = 1.0;  // typical time between two detections of a target
-  bool found_ = false;
   int passes_ = 0;
-  MotionFit fit_;
 };
 
 }  // namespace
