@@ -4,11 +4,11 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "tracker/association/belief_propagation.hpp"
 #include "tracker/association/k_best.hpp"
 #include "tracker/life_cycle.hpp"
 
@@ -20,7 +20,6 @@ constexpr double kWithin = 11.5;              // ln of how much likelier the lik
 constexpr double kLeastOdds = 1e-4;           // of a pair that is considered
 constexpr double kMostWork = 4000.0;          // hypotheses times targets
 constexpr std::size_t kMostJoint = 24;        // targets that are explained together
-constexpr std::size_t kMostAlone = 12;        // explanations of one of more targets than that
 
 /// A branch in a scan: its detections, and what it costs to have none.
 struct Prospect {
@@ -178,14 +177,12 @@ class MultiScan {
   }
 
   /// Few targets are explained together. Of many no list of joint explanations could be long
-  /// enough: each then has explanations of its own.
+  /// enough: each then is one track, and shares detections by their marginal probabilities.
   void update(const std::vector<std::size_t>& group) {
     std::size_t targets = 0;
     for (const std::size_t i : group) targets += scenes_[i].cluster.targets.size();
     if (targets > kMostJoint) {
-      std::vector<Scene> alone;
-      for (const std::size_t i : group) separate(std::move(scenes_[i]), alone);
-      update_separately(std::move(alone));
+      update_marginally(group);
       return;
     }
     Scene joint = std::move(scenes_[group.front()]);
@@ -193,19 +190,58 @@ class MultiScan {
     update(std::move(joint));
   }
 
-  /// A scene of each target alone, with what the hypotheses say of it.
-  void separate(Scene&& scene, std::vector<Scene>& alone) const {
-    if (scene.cluster.targets.size() == 1) {
-      alone.push_back(std::move(scene));
-      return;
+  /// The likeliest track of a target, with its existence under all hypotheses; nothing for one that
+  /// hardly exists.
+  std::optional<Track> marginal(const TrackCluster& cluster, std::size_t target) const {
+    double exists = 0.0;
+    std::vector<double> weights(cluster.targets[target].branches.size(), 0.0);
+    for (const Hypothesis& h : cluster.hypotheses) {
+      const int branch = h.branch_of[target];
+      if (branch != Hypothesis::kAbsent) weights[branch] += std::exp(h.log_weight);
     }
-    for (std::size_t t = 0; t < scene.cluster.targets.size(); ++t) {
-      Scene& own = alone.emplace_back();
-      own.cluster = part_of(scene.cluster, {t});
-      auto& prospects = own.prospects.emplace_back();
-      for (const Branch& branch : own.cluster.targets.front().branches) {
-        prospects.push_back(prospect_of(branch.track));
+    for (std::size_t b = 0; b < weights.size(); ++b) {
+      weights[b] *= *cluster.targets[target].branches[b].track.existence;
+      exists += weights[b];
+    }
+    if (exists < look_.config().existence.drop) return std::nullopt;
+    const auto likeliest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+    Track track = cluster.targets[target].branches[likeliest].track;
+    track.existence = std::min(exists, 1.0);
+    return track;
+  }
+
+  void update_marginally(const std::vector<std::size_t>& group) {
+    std::vector<Track> tracks;
+    std::vector<TrackTree> trees;  // of each track, without branches
+    std::vector<bool> is_claimed(members_.size(), false);
+    for (const std::size_t i : group) {
+      const TrackCluster& cluster = scenes_[i].cluster;
+      for (std::size_t t = 0; t < cluster.targets.size(); ++t) {
+        std::optional<Track> track = marginal(cluster, t);
+        if (!track) continue;
+        tracks.push_back(std::move(*track));
+        trees.push_back({.birth = cluster.targets[t].birth, .id = cluster.targets[t].id, .branches = {}});
       }
+      for (const int detection : detections_of(scenes_[i])) is_claimed[detection] = true;
+    }
+    const std::vector<double> unused =
+        weigh_detections(look_, nobodys_, tracks, state_.log_likelihood);
+    const auto keep = [&](TrackTree&& target, Track&& track, int recent) {
+      TrackCluster& cluster = state_.clusters.emplace_back();
+      target.branches.push_back({.track = std::move(track), .recent = {recent}});
+      cluster.targets.push_back(std::move(target));
+      cluster.hypotheses.push_back({.log_weight = 0.0, .branch_of = {0}});
+    };
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      if (is_worth_keeping(tracks[i])) keep(std::move(trees[i]), std::move(tracks[i]), 0);
+    }
+    for (std::size_t j = 0; j < members_.size(); ++j) {
+      const double existence = unused[j] * real_;
+      if (!is_claimed[j] || existence < look_.config().existence.drop) continue;
+      TrackTree target = begin(static_cast<int>(j), existence);
+      Track track = std::move(target.branches.front().track);
+      target.branches.clear();
+      keep(std::move(target), std::move(track), static_cast<int>(j) + 1);
     }
   }
 
@@ -327,46 +363,8 @@ class MultiScan {
       next.targets.emplace_back();
       for (Hypothesis& h : next.hypotheses) h.branch_of[old + j] = Hypothesis::kAbsent;
     }
-    simplify(next, kMostHypotheses);
+    simplify(next);
     split(std::move(next));
-  }
-
-  /// What each of several targets says of a detection, over all of its explanations.
-  struct Shares {
-    CandidateTable table;         // targets by detections, costs −ln of the odds
-    std::vector<double> odds;     // the same
-    std::vector<double> missed;   // of each target: that it has no detection, before they compete
-  };
-
-  static Shares shares_of(const std::vector<Scene>& scenes, const std::vector<int>& detections) {
-    Shares shares;
-    std::vector<double> with(detections.size(), 0.0);
-    for (const Scene& scene : scenes) {
-      std::fill(with.begin(), with.end(), 0.0);
-      double none = 0.0;
-      for (const Hypothesis& h : scene.cluster.hypotheses) {
-        const int branch = h.branch_of.front();
-        const double weight = std::exp(h.log_weight);
-        if (branch == Hypothesis::kAbsent) {
-          none += weight;
-          continue;
-        }
-        const Prospect& prospect = scene.prospects.front()[branch];
-        const double missed = weight * std::exp(prospect.log_missed);
-        none += missed;
-        for (const Candidate& c : prospect.candidates) {
-          with[index_in(detections, c.detection)] += missed * std::exp(-c.cost);
-        }
-      }
-      for (std::size_t j = 0; j < with.size(); ++j) {
-        if (with[j] <= kLeastOdds * none) continue;
-        shares.odds.push_back(with[j] / none);
-        shares.table.candidates.push_back({static_cast<int>(j), -std::log(with[j] / none)});
-      }
-      shares.table.close_row();
-      shares.missed.push_back(none);
-    }
-    return shares;
   }
 
   static std::size_t index_in(const std::vector<int>& detections, int detection) {
@@ -374,107 +372,9 @@ class MultiScan {
         std::lower_bound(detections.begin(), detections.end(), detection) - detections.begin());
   }
 
-  /// Targets that compete, each with explanations of its own: how probable its pairs are is found
-  /// by belief propagation, and shared among the explanations that say so (the track-oriented
-  /// marginal filter of Williams 2015, with a mixture for each target).
-  void update_separately(std::vector<Scene>&& scenes) {
-    std::vector<int> detections;
-    for (const Scene& scene : scenes) {
-      const std::vector<int> own = detections_of(scene);
-      detections.insert(detections.end(), own.begin(), own.end());
-    }
-    std::sort(detections.begin(), detections.end());
-    detections.erase(std::unique(detections.begin(), detections.end()), detections.end());
-    const auto count = static_cast<int>(detections.size());
-    const Shares shares = shares_of(scenes, detections);
-    const Marginals marginals =
-        marginals_by_belief_propagation(shares.table, shares.odds, count);
-    const std::vector<int> likeliest = assign_globally(shares.table, count, 0.0);
-    state_.log_likelihood += marginals.log_sum;
-    std::vector<double> pair(detections.size());
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      state_.log_likelihood += std::log(shares.missed[i]);
-      std::fill(pair.begin(), pair.end(), 0.0);
-      for (int k = shares.table.row_start[i]; k < shares.table.row_start[i + 1]; ++k) {
-        // of a pair: how much likelier than before they competed
-        pair[shares.table.candidates[k].detection] =
-            marginals.pair[k] / (shares.odds[k] * shares.missed[i]);
-      }
-      const int shown = likeliest[i] == kMissed ? 0 : detections[likeliest[i]] + 1;
-      go_on(std::move(scenes[i]), detections, pair, marginals.missed[i] / shares.missed[i], shown);
-    }
-    for (std::size_t j = 0; j < detections.size(); ++j) {
-      const double unused = marginals.unused[j];
-      if (unused * real_ < look_.config().existence.drop) continue;
-      TrackCluster& cluster = state_.clusters.emplace_back();
-      cluster.targets.push_back(begin(detections[j], real_));
-      cluster.hypotheses.push_back({.log_weight = std::log(unused), .branch_of = {0}});
-      if (unused < 1.0) {
-        cluster.hypotheses.push_back(
-            {.log_weight = std::log1p(-unused), .branch_of = {Hypothesis::kAbsent}});
-      }
-    }
-  }
-
-  /// The explanations of one target after a scan in which it competed.
-  /// @param pair    of each detection, how much likelier that is than before
-  /// @param missed  the same of none
-  /// @param shown   the detection that the explanation which is shown should have
-  void go_on(Scene&& scene, const std::vector<int>& detections, const std::vector<double>& pair,
-             double missed, int shown) {
-    constexpr double kNegligible = 1e-4;
-    TrackCluster next;
-    TrackTree& target = next.targets.emplace_back();
-    target.birth = scene.cluster.targets.front().birth;
-    target.id = scene.cluster.targets.front().id;
-    double exists = 0.0;
-    const auto add = [&](const Branch& branch, const Prospect& prospect, int member,
-                         double weight) {
-      if (weight < kNegligible) return;
-      Branch followed = follow(branch, prospect, member);
-      if (!is_worth_keeping(followed.track)) return;
-      exists += weight * *followed.track.existence;
-      next.hypotheses.push_back({.log_weight = std::log(weight),
-                                 .branch_of = {static_cast<int>(target.branches.size())}});
-      target.branches.push_back(std::move(followed));
-    };
-    for (const Hypothesis& h : scene.cluster.hypotheses) {
-      const double weight = std::exp(h.log_weight);
-      const int index = h.branch_of.front();
-      if (index == Hypothesis::kAbsent) {
-        if (weight * missed < kNegligible) continue;
-        next.hypotheses.push_back(
-            {.log_weight = std::log(weight * missed), .branch_of = {Hypothesis::kAbsent}});
-        continue;
-      }
-      const Branch& branch = scene.cluster.targets.front().branches[index];
-      const Prospect& prospect = scene.prospects.front()[index];
-      const double none = weight * std::exp(prospect.log_missed);
-      add(branch, prospect, kMissed, none * missed);
-      for (const Candidate& c : prospect.candidates) {
-        const double likelier = pair[index_in(detections, c.detection)];
-        add(branch, prospect, c.detection, none * std::exp(-c.cost) * likelier);
-      }
-    }
-    if (exists < look_.config().existence.drop) return;
-    std::stable_sort(next.hypotheses.begin(), next.hypotheses.end(),
-                     [](const auto& a, const auto& b) { return a.log_weight > b.log_weight; });
-    simplify(next, kMostAlone);
-    const auto as_shown = std::find_if(
-        next.hypotheses.begin(), next.hypotheses.end(), [&](const Hypothesis& h) {
-          const int branch = h.branch_of.front();
-          return branch != Hypothesis::kAbsent &&
-                 next.targets.front().branches[branch].recent.front() == shown;
-        });
-    if (as_shown != next.hypotheses.end()) {
-      std::rotate(next.hypotheses.begin(), as_shown, as_shown + 1);
-    }
-    state_.clusters.push_back(part_of(next, {0}));
-  }
-
   /// Hypotheses that agree on the last scans, whichever target they give the detections to, are
   /// one: the likelier one stays, with the weight of both.
-  static void simplify(TrackCluster& cluster, std::size_t most) {
+  static void simplify(TrackCluster& cluster) {
     std::map<std::uint64_t, std::size_t> known;
     std::vector<Hypothesis> kept;
     for (Hypothesis& h : cluster.hypotheses) {  // likeliest first
@@ -486,7 +386,7 @@ class MultiScan {
       double& weight = kept[place->second].log_weight;
       weight += std::log1p(std::exp(h.log_weight - weight));
     }
-    cut(kept, most);
+    cut(kept, kMostHypotheses);
     normalise(kept);
     cluster.hypotheses = std::move(kept);
   }
@@ -621,17 +521,6 @@ class MultiScan {
     }
   }
 
-  /// Of the only target of a cluster, over all hypotheses.
-  static double existence_of(const TrackCluster& cluster) {
-    double sum = 0.0;
-    for (const Hypothesis& h : cluster.hypotheses) {
-      const int branch = h.branch_of.front();
-      if (branch == Hypothesis::kAbsent) continue;
-      sum += std::exp(h.log_weight) * *cluster.targets.front().branches[branch].track.existence;
-    }
-    return sum;
-  }
-
   /// The tracks of the likeliest hypotheses.
   void report() {
     state_.tracks.clear();
@@ -641,7 +530,6 @@ class MultiScan {
         if (likeliest.branch_of[t] == Hypothesis::kAbsent) continue;
         TrackTree& target = cluster.targets[t];
         Track& track = state_.tracks.emplace_back(target.branches[likeliest.branch_of[t]].track);
-        if (cluster.targets.size() == 1) track.existence = existence_of(cluster);
         track.birth = target.birth;
         track.id = target.id > 0 ? target.id : -target.birth;
         judge(look_.config().existence, track, state_.next_id);

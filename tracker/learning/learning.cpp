@@ -268,9 +268,6 @@ class Learner {
     }
     ++passes_;
     pass.paths = recorder.paths();
-#ifdef DBG
-      fprintf(stderr, "pass %d L %.2f paths %zu sigma %.3g %.3g q %.3g v0 %.3g Pd %.3f clutter %.3g\n", passes_, pass.log_likelihood, pass.paths.size(), p.motion.noise[0].x.value, p.motion.noise[0].y.value, p.motion.process_density.at(kAnyClass).value, p.motion.initial_speed, p.detection_probability[0].value, p.clutter[0].value);
-#endif
     return pass;
   }
 
