@@ -159,7 +159,7 @@ Unused update_with_all(const Look& look, const Competition& competition,
     const double missed = marginals.missed[i] * after_miss(r, detection[i]);
     double detected = 0.0;
     for (int k = table.row_start[i]; k < table.row_start[i + 1]; ++k) detected += marginals.pair[k];
-    r = missed + detected;
+    r = std::min(1.0, missed + detected);  // rounding may exceed it
     probable.clear();
     for (int k = table.row_start[i]; k < table.row_start[i + 1]; ++k) {
       const double probability = marginals.pair[k] / r;

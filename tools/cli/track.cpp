@@ -27,6 +27,7 @@
 #include "tools/run/learning.hpp"
 #include "tools/run/offline.hpp"
 #include "tools/run/online.hpp"
+#include "tools/run/shared_times.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/mot_folder.hpp"
 #include "tools/record/run_writer.hpp"
@@ -91,6 +92,52 @@ fs::path output_file(const std::string& output, const std::string& name) {
   return fs::is_directory(output, ignored) ? fs::path(output) / name : fs::path(output);
 }
 
+/// Watches how well the tracker's assumptions fit what it tracks.
+class FitWatch {
+ public:
+  void add(const TrackSnapshot& now) {
+    for (const TrackEstimate& track : now.tracks) {
+      ids_.insert(track.id);
+      if (track.status == TrackStatus::kTentative) continue;
+      confirmed_.insert(track.id);
+      if (!track.nis) continue;
+      nis_ += *track.nis;
+      ++updates_;
+    }
+  }
+
+  /// Says what does not fit, why, and what to set.
+  void report(const OfflineConfig& config) const {
+    if (confirmed_.empty()) {
+      tell("ghtrack: warning: nothing was confirmed of {} tracks that began: nothing seems to go on "
+           "from scan to scan. If something does, say in a file for --config how: 'noise' and "
+           "'period', for each filter 'initial_speed', 'detection_probability' and 'clutter'; if "
+           "a scan shows one object of many, 'scan: partial'",
+           ids_.size());
+      return;
+    }
+    constexpr int kFewest = 20;
+    constexpr double kExpected = 2.0;  // two coordinates
+    if (updates_ < kFewest) return;
+    const double ratio = nis_ / updates_ / kExpected;
+    if (ratio > kFar) {
+      tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
+           "expect: 'noise'{} or the filters' process noise is too small",
+           ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
+    } else if (ratio < 1.0 / kFar) {
+      tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
+           "expect: 'noise'{} or the filters' process noise is too great",
+           ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
+    }
+  }
+
+ private:
+  static constexpr double kFar = 2.0;
+  std::set<int> ids_, confirmed_;
+  double nis_ = 0.0;
+  int updates_ = 0;
+};
+
 void report_refusals(const auto& state, const Manners& manners) {
   if (manners.quiet || state.scans_refused + state.detections_refused == 0) return;
   tell("ghtrack: warning: refused {} scans out of order and {} unusable detections",
@@ -149,13 +196,20 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   if ((options.degrees || geographic) && !summary.origin) {
     throw UsageError("track: --degrees, GPX and GeoJSON need data in degrees");
   }
-  ScanSource scans{.next =
-                       [&](Scan& scan) {
-                         stop_if_interrupted();
-                         return reader.next(scan);
-                       },
-                   .period = summary.period};
-  if (!summary.sensors.empty()) scans.sensors = summary.sensors;
+  ScanSource rows{.next =
+                      [&](Scan& scan) {
+                        stop_if_interrupted();
+                        return reader.next(scan);
+                      },
+                  .period = summary.period};
+  if (!summary.sensors.empty()) rows.sensors = summary.sensors;
+  const std::optional<double> in_a_row = rows_of_one_object(first_of(rows));
+  reader.rewind();
+  if (in_a_row && !manners.quiet) {
+    tell("ghtrack: warning: rows with the same time go on as one object: their times seem to be "
+         "cut, and are spread evenly until the next one; give them with all decimals");
+  }
+  ScanSource scans = in_a_row ? spread(rows, *in_a_row) : rows;
   const auto tell_what_was_learned = [&](const LearnedConfig& learned) {
     if (manners.quiet) return;
     for (const std::string& line : describe(learned)) tell("ghtrack: {}", line);
@@ -165,15 +219,18 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
     const LearnedConfig learned =
         times.of(StageTimes::kLearn, [&] { return learn_offline(config, scans); });
     reader.rewind();
+    if (in_a_row) scans = spread(rows, *in_a_row);
     config = learned.config;
     tell_what_was_learned(learned);
   }
   StepTimes steps;
+  FitWatch watch;
   TrackerState state;
   const auto track_all = [&](const auto& on_scan) {
     times.of(StageTimes::kTrack, [&] {
       const auto on_tracked = [&](const TrackSnapshot& now) {
         times.count_scans(1);
+        watch.add(now);
         on_scan(now);
       };
       if (learns && options.online) {
@@ -205,6 +262,7 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   if (!options.save_config.empty()) {
     write_file(options.save_config, schema::write_configuration(config));
   }
+  if (!manners.quiet) watch.report(config);
   report_refusals(state, manners);
 }
 

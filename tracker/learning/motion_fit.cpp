@@ -220,7 +220,7 @@ class Fit {
   }
 
   static Learned learned(const Learned& before, const Parameter& p, double power) {
-    if (before.is_given) return before;
+    if (!p.is_free) return before;
     const double value = std::exp(p.value / power);
     const double spread = p.curvature > 0.0 ? k95 / std::sqrt(p.curvature) / power : 5.0;
     return {value, value * std::exp(-std::min(5.0, spread)),

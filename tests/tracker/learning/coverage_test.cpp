@@ -22,7 +22,7 @@ std::vector<Scan> in_turn(int objects, double speed, double noise) {
   std::vector<Scan> scans;
   for (int k = 0; k < 120; ++k) {
     const double time = 0.5 * k;
-    const double angle = 2.0 * (k % objects);
+    const double angle = 1.5 * (k % objects);
     const double x = 1000.0 * std::cos(angle) + speed * time + normal(random);
     const double y = 1000.0 * std::sin(angle) + normal(random);
     scans.push_back({.time = time, .sensor = 0, .detections = {{.position = {x, y}, .label = {}}}});
