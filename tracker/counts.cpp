@@ -95,6 +95,7 @@ void step_by_counts(Look& look, TrackerState& state) {
     if (pairing.track_of[i] != kMissed) continue;
     Track& track = tracks.emplace_back(look.begin(members[i]));
     track.id = state.next_id++;
+    track.birth = track.id;
     if (config.confirm_rule().holds_for(track.history)) track.status = TrackStatus::kConfirmed;
   }
   look.clock.finished(&StepTimes::begin);

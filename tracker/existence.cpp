@@ -19,7 +19,7 @@ constexpr double kFewFalseDetections = 1e-5;
 
 double clutter_density(const SensorTraits& sensor) {
   const double few = kFewFalseDetections / (2.0 * std::numbers::pi * sensor.sigma * sensor.sigma);
-  return std::max(few, sensor.clutter / area(sensor.field_of_view));
+  return std::max(few, sensor.clutter / sensor.surveyed_area());
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ Evidence::Evidence(const ExistenceConfig& config, const SensorTraits& sensor)
       births(config.births * clutter),
       at_first(std::max(config.births, kTargetsAtFirst) * clutter),
       lifetime(config.lifetime.value_or(kScansOfALife * sensor.period)),
-      area(ghtrack::area(sensor.field_of_view)) {}
+      area(sensor.surveyed_area()) {}
 
 double Evidence::log_nobodys(double density, std::size_t detections) const {
   const double expected = std::isfinite(area) ? density * area : 0.0;

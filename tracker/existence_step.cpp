@@ -28,9 +28,9 @@ struct Competition {
 /// so: it competes as if it were at least that likely.
 constexpr double kLeastClaim = 0.5;
 
-Competition compete(Look& look, const Evidence& evidence, double nobodys,
-                    const std::vector<Track>& tracks) {
-  const bool decides = look.config().association != Association::kProbabilistic;
+/// @param decides  whether each track is to get one detection at once
+Competition compete(Look& look, double nobodys, const std::vector<Track>& tracks, bool decides) {
+  const Evidence& evidence = look.design.evidence(look.scan.sensor);
   const double least = decides ? kLeastClaim : 0.0;
   const double dearest = decides ? 0.0 : -std::log(kLeastOdds);
   Competition result;
@@ -45,10 +45,10 @@ Competition compete(Look& look, const Evidence& evidence, double nobodys,
     const double missed = 1.0 - r * due;
     // odds: r p N(ν; 0, S) / (nobody's · (1 − r p))
     const double base = std::log(2.0 * std::numbers::pi * nobodys * missed / (r * p));
-    look.grid.find_in_gate(track.prediction, look.config().gate, gated);
-    for (const auto& [member, squared_distance, determinant] : gated) {
-      const double cost = base + 0.5 * (squared_distance + std::log(determinant));
-      if (cost < dearest) result.table.candidates.push_back({member, cost});
+    look.grid.find_in_gate(track.reach, look.config().gate, gated);
+    for (const Gated& near : gated) {
+      const double cost = base + surprise(track, near, look.grid.members()[near.member]);
+      if (cost < dearest) result.table.candidates.push_back({near.member, cost});
     }
     result.table.close_row();
     result.detection.push_back(due);
@@ -136,7 +136,8 @@ void undo_swaps(const CandidateTable& table, int detections, std::vector<double>
 }
 
 /// Every detection for every track, as probable as it is.
-Unused update_with_all(const Look& look, const Competition& competition, TrackerState& state) {
+Unused update_with_all(const Look& look, const Competition& competition,
+                       std::vector<Track>& tracks, double& log_likelihood) {
   const auto& [table, detection, log_missed] = competition;
   const auto& members = look.grid.members();
   const auto count = static_cast<int>(members.size());
@@ -146,19 +147,19 @@ Unused update_with_all(const Look& look, const Competition& competition, Tracker
     odds.push_back(std::min(kGreatestOdds, std::exp(-candidate.cost)));
   }
   Marginals marginals = marginals_by_belief_propagation(table, odds, count);
-  state.log_likelihood += marginals.log_sum;
+  log_likelihood += marginals.log_sum;
   undo_swaps(table, count, marginals.pair);
   look.clock.finished(&StepTimes::associate);
 
   constexpr double kNegligible = 1e-3;
   std::vector<Weighted> probable;
-  for (std::size_t i = 0; i < state.tracks.size(); ++i) {
-    Track& track = state.tracks[i];
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    Track& track = tracks[i];
     double& r = *track.existence;
     const double missed = marginals.missed[i] * after_miss(r, detection[i]);
     double detected = 0.0;
     for (int k = table.row_start[i]; k < table.row_start[i + 1]; ++k) detected += marginals.pair[k];
-    r = missed + detected;
+    r = std::min(1.0, missed + detected);  // rounding may exceed it
     probable.clear();
     for (int k = table.row_start[i]; k < table.row_start[i + 1]; ++k) {
       const double probability = marginals.pair[k] / r;
@@ -189,6 +190,13 @@ void judge(const ExistenceConfig& config, Track& track, int& next_id) {
   track.status = track.detection ? TrackStatus::kConfirmed : TrackStatus::kCoasting;
 }
 
+std::vector<double> weigh_detections(Look& look, double nobodys, std::vector<Track>& tracks,
+                                     double& log_likelihood) {
+  const Competition competition = compete(look, nobodys, tracks, false);
+  log_likelihood += competition.log_missed;
+  return update_with_all(look, competition, tracks, log_likelihood);
+}
+
 void step_by_existence(Look& look, TrackerState& state) {
   const TrackerConfig& config = look.config();
   const Evidence& evidence = look.design.evidence(look.scan.sensor);
@@ -200,14 +208,15 @@ void step_by_existence(Look& look, TrackerState& state) {
     predict(track, look.elapsed);
     *track.existence *= stay;
   }
-  const Competition competition = compete(look, evidence, nobodys, tracks);
+  const bool decides = config.association != Association::kProbabilistic;
+  const Competition competition = compete(look, nobodys, tracks, decides);
   state.log_likelihood =
       evidence.log_nobodys(nobodys, look.grid.members().size()) + competition.log_missed;
   look.clock.finished(&StepTimes::predict);
 
-  const Unused unused = config.association == Association::kProbabilistic
-                            ? update_with_all(look, competition, state)
-                            : update_with_nearest(look, competition, state);
+  const Unused unused =
+      decides ? update_with_nearest(look, competition, state)
+              : update_with_all(look, competition, tracks, state.log_likelihood);
   keep_if(tracks, [&](std::size_t i) {
     judge(config.existence, tracks[i], state.next_id);
     return *tracks[i].existence >= config.existence.drop && tracks[i].unseen < config.drop_unseen &&
@@ -219,7 +228,8 @@ void step_by_existence(Look& look, TrackerState& state) {
   for (std::size_t i = 0; i < unused.size(); ++i) {
     if (unused[i] * real < config.existence.drop) continue;
     Track& track = tracks.emplace_back(look.begin(look.grid.members()[i]));
-    track.id = -state.next_birth++;
+    track.birth = state.next_birth++;
+    track.id = -track.birth;
     track.existence = unused[i] * real;
     judge(config.existence, track, state.next_id);
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ constexpr std::size_t kMostHypotheses = 100;  // in a cluster
 constexpr double kWithin = 11.5;              // ln of how much likelier the likeliest one may be
 constexpr double kLeastOdds = 1e-4;           // of a pair that is considered
 constexpr double kMostWork = 4000.0;          // hypotheses times targets
+constexpr std::size_t kMostJoint = 24;        // targets that are explained together
 
 /// A branch in a scan: its detections, and what it costs to have none.
 struct Prospect {
@@ -96,13 +98,11 @@ class MultiScan {
   void run() {
     predict_all();
     look_.clock.finished(&StepTimes::predict);
-    gather();
+    const std::vector<std::vector<std::size_t>> groups = competitors();
     look_.clock.finished(&StepTimes::associate);
     state_.log_likelihood = evidence_.log_nobodys(nobodys_, members_.size());
     state_.clusters.clear();
-    for (Scene& scene : scenes_) {
-      if (!scene.cluster.targets.empty()) update(std::move(scene));
-    }
+    for (const std::vector<std::size_t>& group : groups) update(group);
     look_.clock.finished(&StepTimes::update);
     begin_alone();
     state_.undetected.after_look(evidence_, look_.scan.sensor);
@@ -138,44 +138,110 @@ class MultiScan {
     result.log_missed = std::log(missed);
     const double base = std::log(2.0 * std::numbers::pi * nobodys_ * missed / (r * p));
     std::vector<Gated> gated;
-    look_.grid.find_in_gate(track.prediction, look_.config().gate, gated);
-    for (const auto& [member, squared_distance, determinant] : gated) {
-      const double cost = base + 0.5 * (squared_distance + std::log(determinant));
-      if (cost < -std::log(kLeastOdds)) result.candidates.push_back({member, cost});
+    look_.grid.find_in_gate(track.reach, look_.config().gate, gated);
+    for (const Gated& near : gated) {
+      const double cost = base + surprise(track, near, members_[near.member]);
+      if (cost < -std::log(kLeastOdds)) result.candidates.push_back({near.member, cost});
     }
     return result;
   }
 
-  /// Joins the clusters that compete for a detection now.
-  void gather() {
+  /// The scenes in groups that compete for a detection now, in their order; notes whose each
+  /// detection may be.
+  std::vector<std::vector<std::size_t>> competitors() {
+    std::vector<int> parent(scenes_.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int i) {
+      while (parent[i] != i) i = parent[i] = parent[parent[i]];
+      return i;
+    };
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
-      std::vector<int> rivals;
-      std::vector<int> mine;
       for (const auto& prospects : scenes_[i].prospects) {
         for (const Prospect& prospect : prospects) {
           for (const Candidate& candidate : prospect.candidates) {
             int& owner = scene_of_[candidate.detection];
-            if (owner != kNobody && owner != static_cast<int>(i)) rivals.push_back(owner);
-            mine.push_back(candidate.detection);
+            if (owner == kNobody) owner = static_cast<int>(i);
+            const int a = root(owner);
+            const int b = root(static_cast<int>(i));
+            parent[std::max(a, b)] = std::min(a, b);
           }
         }
       }
-      std::sort(rivals.begin(), rivals.end());
-      rivals.erase(std::unique(rivals.begin(), rivals.end()), rivals.end());
-      for (const int detection : mine) scene_of_[detection] = static_cast<int>(i);
-      for (const int rival : rivals) {
-        Scene& other = scenes_[rival];
-        for (const auto& prospects : other.prospects) {
-          for (const Prospect& prospect : prospects) {
-            for (const Candidate& c : prospect.candidates)
-              scene_of_[c.detection] = static_cast<int>(i);
-          }
-        }
-        Scene merged = std::move(other);
-        other = {};
-        join(merged, std::move(scenes_[i]));
-        scenes_[i] = std::move(merged);
+    }
+    std::vector<std::vector<std::size_t>> by_root(scenes_.size());
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      by_root[static_cast<std::size_t>(root(static_cast<int>(i)))].push_back(i);
+    }
+    std::erase_if(by_root, [](const auto& group) { return group.empty(); });
+    return by_root;
+  }
+
+  /// Few targets are explained together. Of many no list of joint explanations could be long
+  /// enough: each then is one track, and shares detections by their marginal probabilities.
+  void update(const std::vector<std::size_t>& group) {
+    std::size_t targets = 0;
+    for (const std::size_t i : group) targets += scenes_[i].cluster.targets.size();
+    if (targets > kMostJoint) {
+      update_marginally(group);
+      return;
+    }
+    Scene joint = std::move(scenes_[group.front()]);
+    for (std::size_t i = 1; i < group.size(); ++i) join(joint, std::move(scenes_[group[i]]));
+    update(std::move(joint));
+  }
+
+  /// The likeliest track of a target, with its existence under all hypotheses; nothing for one that
+  /// hardly exists.
+  std::optional<Track> marginal(const TrackCluster& cluster, std::size_t target) const {
+    double exists = 0.0;
+    std::vector<double> weights(cluster.targets[target].branches.size(), 0.0);
+    for (const Hypothesis& h : cluster.hypotheses) {
+      const int branch = h.branch_of[target];
+      if (branch != Hypothesis::kAbsent) weights[branch] += std::exp(h.log_weight);
+    }
+    for (std::size_t b = 0; b < weights.size(); ++b) {
+      weights[b] *= *cluster.targets[target].branches[b].track.existence;
+      exists += weights[b];
+    }
+    if (exists < look_.config().existence.drop) return std::nullopt;
+    const auto likeliest = std::max_element(weights.begin(), weights.end()) - weights.begin();
+    Track track = cluster.targets[target].branches[likeliest].track;
+    track.existence = std::min(exists, 1.0);
+    return track;
+  }
+
+  void update_marginally(const std::vector<std::size_t>& group) {
+    std::vector<Track> tracks;
+    std::vector<TrackTree> trees;  // of each track, without branches
+    std::vector<bool> is_claimed(members_.size(), false);
+    for (const std::size_t i : group) {
+      const TrackCluster& cluster = scenes_[i].cluster;
+      for (std::size_t t = 0; t < cluster.targets.size(); ++t) {
+        std::optional<Track> track = marginal(cluster, t);
+        if (!track) continue;
+        tracks.push_back(std::move(*track));
+        trees.push_back({.birth = cluster.targets[t].birth, .id = cluster.targets[t].id, .branches = {}});
       }
+      for (const int detection : detections_of(scenes_[i])) is_claimed[detection] = true;
+    }
+    const std::vector<double> unused =
+        weigh_detections(look_, nobodys_, tracks, state_.log_likelihood);
+    const auto keep = [&](TrackTree&& target, Track&& track, int recent) {
+      TrackCluster& cluster = state_.clusters.emplace_back();
+      target.branches.push_back({.track = std::move(track), .recent = {recent}});
+      cluster.targets.push_back(std::move(target));
+      cluster.hypotheses.push_back({.log_weight = 0.0, .branch_of = {0}});
+    };
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      if (is_worth_keeping(tracks[i])) keep(std::move(trees[i]), std::move(tracks[i]), 0);
+    }
+    for (std::size_t j = 0; j < members_.size(); ++j) {
+      const double existence = unused[j] * real_;
+      if (!is_claimed[j] || existence < look_.config().existence.drop) continue;
+      TrackTree target = begin(static_cast<int>(j), existence);
+      Track track = std::move(target.branches.front().track);
+      target.branches.clear();
+      keep(std::move(target), std::move(track), static_cast<int>(j) + 1);
     }
   }
 
@@ -200,8 +266,8 @@ class MultiScan {
       const Prospect& prospect = scene.prospects[t][hypothesis.branch_of[t]];
       problem.base -= prospect.log_missed;
       for (const Candidate& c : prospect.candidates) {
-        const auto local = std::lower_bound(detections.begin(), detections.end(), c.detection);
-        problem.table.candidates.push_back({static_cast<int>(local - detections.begin()), c.cost});
+        problem.table.candidates.push_back(
+            {static_cast<int>(index_in(detections, c.detection)), c.cost});
       }
       problem.table.close_row();
     }
@@ -301,9 +367,14 @@ class MultiScan {
     split(std::move(next));
   }
 
+  static std::size_t index_in(const std::vector<int>& detections, int detection) {
+    return static_cast<std::size_t>(
+        std::lower_bound(detections.begin(), detections.end(), detection) - detections.begin());
+  }
+
   /// Hypotheses that agree on the last scans, whichever target they give the detections to, are
   /// one: the likelier one stays, with the weight of both.
-  void simplify(TrackCluster& cluster) const {
+  static void simplify(TrackCluster& cluster) {
     std::map<std::uint64_t, std::size_t> known;
     std::vector<Hypothesis> kept;
     for (Hypothesis& h : cluster.hypotheses) {  // likeliest first
@@ -356,7 +427,10 @@ class MultiScan {
       for (std::size_t u = t; u < cluster.targets.size(); ++u) {
         if (group[u] == static_cast<int>(t)) members.push_back(u);
       }
-      state_.clusters.push_back(part_of(cluster, members));
+      TrackCluster part = part_of(cluster, members);
+      cut(part.hypotheses, kMostHypotheses);
+      normalise(part.hypotheses);
+      state_.clusters.push_back(std::move(part));
     }
   }
 
@@ -432,7 +506,6 @@ class MultiScan {
         weight = more + std::log(std::exp(weight - more) + std::exp(own.log_weight - more));
       }
     }
-    cut(part.hypotheses, kMostHypotheses);
     normalise(part.hypotheses);
     return part;
   }
@@ -457,6 +530,7 @@ class MultiScan {
         if (likeliest.branch_of[t] == Hypothesis::kAbsent) continue;
         TrackTree& target = cluster.targets[t];
         Track& track = state_.tracks.emplace_back(target.branches[likeliest.branch_of[t]].track);
+        track.birth = target.birth;
         track.id = target.id > 0 ? target.id : -target.birth;
         judge(look_.config().existence, track, state_.next_id);
         if (track.id > 0) target.id = track.id;

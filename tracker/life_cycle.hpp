@@ -32,6 +32,14 @@ void step_by_counts(Look& look, TrackerState& state);
 /// the probability of existence confirms and ends them.
 void step_by_existence(Look& look, TrackerState& state);
 
+/// `association: probabilistic`, for some of the tracks, which have been predicted: each gets every
+/// detection in its gate, weighed by its marginal probability.
+/// @param nobodys         density of detections that are no track's [1/m²]
+/// @param log_likelihood  gets what these tracks say of the scan
+/// @return of each member of the grid the probability that it is none of these tracks'
+std::vector<double> weigh_detections(Look& look, double nobodys, std::vector<Track>& tracks,
+                                     double& log_likelihood);
+
 /// `association: multi-scan`: as by existence, under several hypotheses of the past.
 void step_by_hypotheses(Look& look, TrackerState& state);
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <variant>
 
 namespace ghtrack {
@@ -12,6 +14,9 @@ bool is_look(const Track& track, const SensorTraits& sensor, double time) {
   return sensor.coverage == Coverage::kWhole ||
          time - track.seen_at >= (track.unseen + 1.5) * sensor.period;
 }
+
+/// Whether the prediction is a mixture, which no single covariance describes.
+bool is_mixed(const Track& track) { return std::holds_alternative<ImmFilter>(track.filter); }
 
 }  // namespace
 
@@ -26,6 +31,8 @@ void predict(Track& track, double dt) {
             track.prediction.covariance + nominal_variance * Eigen::Matrix2d::Identity();
       },
       track.filter);
+  track.reach = track.prediction;
+  if (is_mixed(track)) track.reach.covariance = widest_covariance(track.filter);
   track.residual.reset();
   track.detection.reset();
 }
@@ -39,10 +46,18 @@ Track begin_track(const Filter& filter, const Scan& scan, std::size_t index) {
               .filter = filter,
               .label = detection.label,
               .prediction = {detection.position, detection.covariance},
+              .reach = {detection.position, detection.covariance},
               .innovation_covariance = 2.0 * detection.covariance,
               .residual = {}};
   start(track.filter, detection.position, detection.covariance);
   return track;
+}
+
+double surprise(const Track& track, const Gated& gated, const PlacedDetection& detection) {
+  if (!is_mixed(track)) return 0.5 * (gated.squared_distance + std::log(gated.determinant));
+  const double log_density =
+      log_likelihood(track.filter, detection.position, detection.covariance).value_or(-700.0);
+  return -log_density - std::log(2.0 * std::numbers::pi);
 }
 
 void hit(Track& track, const PlacedDetection& found, const Scan& scan) {

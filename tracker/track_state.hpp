@@ -8,6 +8,7 @@
 #include "sensors/detection.hpp"
 #include "tracker/filters/filter.hpp"
 #include "tracker/hit_history.hpp"
+#include "tracker/nearest_tree.hpp"
 #include "tracker/prediction.hpp"
 #include "tracker/track.hpp"
 
@@ -15,7 +16,8 @@ namespace ghtrack {
 
 /// One hypothesis of a target.
 struct Track {
-  int id = 0;  // with `life_cycle: existence` negative until confirmed
+  int id = 0;     // with `life_cycle: existence` negative until confirmed
+  int birth = 0;  // counts from 1 in the order of birth
   TrackStatus status = TrackStatus::kTentative;
   std::optional<double> existence;  // probability that there is a target; absent: not weighed
   int unseen = 0;                   // looks since its last detection
@@ -27,6 +29,7 @@ struct Track {
   Filter filter;
   std::string label;                                                // of the first detection
   Prediction prediction;                                            // of this scan's detection
+  Prediction reach;                                                 // as far as that may lie
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of this scan's residual [m²]
   std::optional<Eigen::Vector2d> residual;                          // of this scan's detection
 };
@@ -37,6 +40,10 @@ void predict(Track& track, double dt);
 /// Starts a track at a detection.
 /// @param filter  waits for its first measurement
 Track begin_track(const Filter& filter, const Scan& scan, std::size_t detection);
+
+/// How unlikely a detection in the reach of a track is if it is the track's own: −ln of its density
+/// times 2 π m².
+double surprise(const Track& track, const Gated& gated, const PlacedDetection& detection);
 
 /// Gives the track the detection that is its own.
 void hit(Track& track, const PlacedDetection& found, const Scan& scan);

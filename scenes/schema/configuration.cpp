@@ -6,6 +6,7 @@
 
 #include "scenes/schema/document.hpp"
 #include "scenes/schema/overrides.hpp"
+#include "scenes/schema/value_json.hpp"
 #include "scenes/schema/value_reader.hpp"
 
 namespace ghtrack::schema {
@@ -33,6 +34,10 @@ void read_configuration(std::string_view text, const std::string& name,
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
   throw SceneError(std::move(found));
+}
+
+std::string write_configuration(const Type& type, const void* object) {
+  return to_yaml(to_json(type, object));
 }
 
 }  // namespace ghtrack::schema

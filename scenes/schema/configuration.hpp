@@ -34,4 +34,12 @@ T read_configuration_file(const std::filesystem::path& file,
   return read_configuration_text<T>(read_document_bytes(file), document_name(file), overrides);
 }
 
+/// An object of a described type as a file that reads back to the same.
+std::string write_configuration(const Type& type, const void* object);
+
+template <class T>
+std::string write_configuration(const T& value) {
+  return write_configuration(type_of<T>(), &value);
+}
+
 }  // namespace ghtrack::schema

@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/end_to_end/program.hpp"
 
@@ -81,6 +83,74 @@ TEST(OwnData, TellsWhatItUnderstood) {
   EXPECT_THAT(skipped.err, HasSubstr("left out 1 bad rows"));
   const Outcome quiet = shell("ghtrack track d.csv --skip-bad-rows -q -o t.csv", folder.path());
   EXPECT_EQ(quiet.err, "");
+}
+
+/// An object that goes along at 240 m/s, ten times as far in a second as its error, and stops.
+std::string aircraft(double length, double time) {
+  std::string rows = "t,x,y\n";
+  for (int k = 0; k < 60; ++k) {
+    const double wobble = 15.0 * ((k * 7919) % 17 / 8.0 - 1.0);
+    const double sway = 15.0 * ((k * 104729) % 19 / 9.0 - 1.0);
+    rows += std::to_string(k * time) + "," + std::to_string((240.0 * k + wobble) * length) + "," +
+            std::to_string(sway * length) + "\n";
+  }
+  return rows;
+}
+
+std::set<std::string> confirmed_in(const fs::path& tracks) {
+  std::set<std::string> ids;
+  for (const auto& row : csv_rows(tracks)) {
+    if (row.size() > 2 && std::find(row.begin(), row.end(), "confirmed") != row.end()) {
+      ids.insert(row[1]);
+    }
+  }
+  return ids;
+}
+
+// Property: without a word on noise and speed, in whatever units, one object is one track; what was
+// learned is said with intervals, and the configuration that is saved gives the same bytes again.
+TEST(OwnData, TracksWhatNobodyHasDescribed) {
+  const TemporaryFolder folder;
+  for (const auto& [length, time] : {std::pair(1.0, 1.0), std::pair(1000.0, 0.125)}) {
+    write(folder.path() / "d.csv", aircraft(length, time));
+    const Outcome learned =
+        shell("ghtrack track d.csv -o learned.csv --save-config used.yaml", folder.path());
+    ASSERT_EQ(learned.exit_code, 0) << learned.err;
+    EXPECT_THAT(learned.err, HasSubstr("noise "));
+    EXPECT_THAT(learned.err, HasSubstr(" … "));
+    EXPECT_THAT(learned.err, HasSubstr("1 tracks explain 100 % of the detections"));
+    EXPECT_EQ(confirmed_in(folder.path() / "learned.csv").size(), 1U);
+    const Outcome again =
+        shell("ghtrack track d.csv -q -o again.csv --config used.yaml", folder.path());
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(contents(folder.path() / "again.csv"), contents(folder.path() / "learned.csv"));
+  }
+  const Outcome online = shell("ghtrack track d.csv -q --online -o online.csv", folder.path());
+  EXPECT_EQ(online.exit_code, 0) << online.err;
+  EXPECT_EQ(confirmed_in(folder.path() / "online.csv").size(), 1U);
+}
+
+// Property: where nothing goes on, that is said, and what to set; and where times have been cut to
+// whole seconds, that.
+TEST(OwnData, SaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  std::string nothing = "t,x,y\n", cut = "t,x,y\n";
+  for (int k = 0; k < 100; ++k) {
+    nothing += std::to_string(k) + "," + std::to_string((k * 7919) % 1009) + "," +
+               std::to_string((k * 104729) % 997) + "\n";
+    cut += std::to_string(k / 10) + "," + std::to_string(3.0 * k + (k * 31) % 7 * 0.1) + "," +
+           std::to_string(0.5 * k) + "\n";
+  }
+  write(folder.path() / "nothing.csv", nothing);
+  const Outcome none = shell("ghtrack track nothing.csv -o t.csv", folder.path());
+  EXPECT_EQ(none.exit_code, 0);
+  EXPECT_THAT(none.err, HasSubstr("nothing was confirmed"));
+  EXPECT_THAT(none.err, HasSubstr("'initial_speed'"));
+  write(folder.path() / "cut.csv", cut);
+  const Outcome one = shell("ghtrack track cut.csv -o t.csv", folder.path());
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_THAT(one.err, HasSubstr("their times seem to be cut"));
+  EXPECT_EQ(confirmed_in(folder.path() / "t.csv").size(), 1U);
 }
 
 // Derived: two sequences, of which one is scored under other rules than its own file asks for.

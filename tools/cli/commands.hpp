@@ -123,6 +123,8 @@ struct TrackOptions {
   bool degrees = false;  // also write latitude and longitude
   std::string format = "auto";
   std::string config;             // YAML file of a tracker; empty: the defaults
+  bool online = false;            // learn from what has been seen so far only
+  std::string save_config;        // where to write what was used; empty: nowhere
   std::string output;             // empty: standard output
   std::string evaluation_folder;  // for public evaluation kits; empty: none
   std::string benchmark = "MOT15", split = "train", tracker_name = "ghtrack";

@@ -370,6 +370,11 @@ void add_track(CLI::App& app, TrackOptions& options) {
       ->capture_default_str();
   command.add_option("--config", options.config,
                      "YAML file; `ghtrack reference --track` lists its keys");
+  command.add_option("--save-config", options.save_config,
+                     "write what was used, learned or given, as a file for --config");
+  command.add_flag("--online", options.online,
+                   "learn what the configuration leaves open as the scans come, instead of from "
+                   "all of them first");
   add_data_options(command, options.data);
   command.add_flag("--degrees", options.degrees,
                    "for data in degrees: also write the columns lat and lon");

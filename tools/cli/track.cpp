@@ -24,7 +24,10 @@
 #include "tools/data/formats.hpp"
 #include "tools/data/scan_reader.hpp"
 #include "tools/run/box_tracking.hpp"
+#include "tools/run/learning.hpp"
 #include "tools/run/offline.hpp"
+#include "tools/run/online.hpp"
+#include "tools/run/shared_times.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/mot_folder.hpp"
 #include "tools/record/run_writer.hpp"
@@ -37,7 +40,7 @@ namespace fs = std::filesystem;
 /// Wall time of each stage over all files [s].
 class StageTimes {
  public:
-  enum Stage { kRead, kTrack, kWrite };
+  enum Stage { kRead, kLearn, kTrack, kWrite };
 
   /// Runs one stage.
   template <class Work>
@@ -62,8 +65,9 @@ class StageTimes {
                            steps_->predict, steps_->associate, steps_->update, steps_->begin);
     }
     return fmt::format(
-        "read {:.6f} s, track {:.6f} s{}, write {:.6f} s; {} scans, {:.0f} per second",
-        seconds_[kRead], seconds_[kTrack], stages, seconds_[kWrite], scans_,
+        "read {:.6f} s, learn {:.6f} s, track {:.6f} s{}, write {:.6f} s; {} scans, {:.0f} per "
+        "second",
+        seconds_[kRead], seconds_[kLearn], seconds_[kTrack], stages, seconds_[kWrite], scans_,
         static_cast<double>(scans_) / std::max(seconds_[kTrack], 1e-9));
   }
 
@@ -76,7 +80,7 @@ class StageTimes {
     Clock::time_point start = Clock::now();
   };
 
-  double seconds_[3] = {};
+  double seconds_[4] = {};
   std::optional<StepTimes> steps_;
   std::size_t scans_ = 0;
 };
@@ -87,6 +91,52 @@ fs::path output_file(const std::string& output, const std::string& name) {
   if (output.empty()) return "-";
   return fs::is_directory(output, ignored) ? fs::path(output) / name : fs::path(output);
 }
+
+/// Watches how well the tracker's assumptions fit what it tracks.
+class FitWatch {
+ public:
+  void add(const TrackSnapshot& now) {
+    for (const TrackEstimate& track : now.tracks) {
+      ids_.insert(track.id);
+      if (track.status == TrackStatus::kTentative) continue;
+      confirmed_.insert(track.id);
+      if (!track.nis) continue;
+      nis_ += *track.nis;
+      ++updates_;
+    }
+  }
+
+  /// Says what does not fit, why, and what to set.
+  void report(const OfflineConfig& config) const {
+    if (confirmed_.empty()) {
+      tell("ghtrack: warning: nothing was confirmed of {} tracks that began: nothing seems to go on "
+           "from scan to scan. If something does, say in a file for --config how: 'noise' and "
+           "'period', for each filter 'initial_speed', 'detection_probability' and 'clutter'; if "
+           "a scan shows one object of many, 'scan: partial'",
+           ids_.size());
+      return;
+    }
+    constexpr int kFewest = 20;
+    constexpr double kExpected = 2.0;  // two coordinates
+    if (updates_ < kFewest) return;
+    const double ratio = nis_ / updates_ / kExpected;
+    if (ratio > kFar) {
+      tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
+           "expect: 'noise'{} or the filters' process noise is too small",
+           ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
+    } else if (ratio < 1.0 / kFar) {
+      tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
+           "expect: 'noise'{} or the filters' process noise is too great",
+           ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
+    }
+  }
+
+ private:
+  static constexpr double kFar = 2.0;
+  std::set<int> ids_, confirmed_;
+  double nis_ = 0.0;
+  int updates_ = 0;
+};
 
 void report_refusals(const auto& state, const Manners& manners) {
   if (manners.quiet || state.scans_refused + state.detections_refused == 0) return;
@@ -135,7 +185,7 @@ class GeoTracks {
   std::map<int, GeoTrack> by_id_;
 };
 
-void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTimes& times,
+void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& times,
                const Manners& manners) {
   ScanReader reader = times.of(StageTimes::kRead, [&] {
     return ScanReader(options.detections.front(), read_options(options.data));
@@ -146,19 +196,55 @@ void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTi
   if ((options.degrees || geographic) && !summary.origin) {
     throw UsageError("track: --degrees, GPX and GeoJSON need data in degrees");
   }
-  const ScanSource scans{.next =
-                             [&](Scan& scan) {
-                               stop_if_interrupted();
-                               times.count_scans(1);
-                               return reader.next(scan);
-                             },
-                         .period = summary.period,
-                         .sensors = std::max(1, static_cast<int>(summary.sensors.size()))};
+  ScanSource rows{.next =
+                      [&](Scan& scan) {
+                        stop_if_interrupted();
+                        return reader.next(scan);
+                      },
+                  .period = summary.period};
+  if (!summary.sensors.empty()) rows.sensors = summary.sensors;
+  const std::optional<double> in_a_row = rows_of_one_object(first_of(rows));
+  reader.rewind();
+  if (in_a_row && !manners.quiet) {
+    tell("ghtrack: warning: rows with the same time go on as one object: their times seem to be "
+         "cut, and are spread evenly until the next one; give them with all decimals");
+  }
+  ScanSource scans = in_a_row ? spread(rows, *in_a_row) : rows;
+  const auto tell_what_was_learned = [&](const LearnedConfig& learned) {
+    if (manners.quiet) return;
+    for (const std::string& line : describe(learned)) tell("ghtrack: {}", line);
+  };
+  const bool learns = leaves_open(config, scans.sensors, summary.has_sigma);
+  if (learns && !options.online) {
+    const LearnedConfig learned =
+        times.of(StageTimes::kLearn, [&] { return learn_offline(config, scans); });
+    reader.rewind();
+    if (in_a_row) scans = spread(rows, *in_a_row);
+    config = learned.config;
+    tell_what_was_learned(learned);
+  }
   StepTimes steps;
+  FitWatch watch;
   TrackerState state;
   const auto track_all = [&](const auto& on_scan) {
-    times.of(StageTimes::kTrack,
-             [&] { state = track_offline(config, scans, on_scan, &steps); });
+    times.of(StageTimes::kTrack, [&] {
+      const auto on_tracked = [&](const TrackSnapshot& now) {
+        times.count_scans(1);
+        watch.add(now);
+        on_scan(now);
+      };
+      if (learns && options.online) {
+        std::optional<LearnedConfig> last;
+        state = track_online(
+            config, scans, on_tracked, [&](const LearnedConfig& now) { last = now; }, &steps);
+        if (last) {
+          tell_what_was_learned(*last);
+          config = last->config;
+        }
+      } else {
+        state = track_offline(config, scans, on_tracked, &steps);
+      }
+    });
     times.split_tracking(steps);
   };
   if (geographic) {
@@ -173,6 +259,10 @@ void track_csv(const TrackOptions& options, const OfflineConfig& config, StageTi
     track_all([&](const TrackSnapshot& now) { writer.add(now); });
     times.of(StageTimes::kWrite, [&] { writer.commit(); });
   }
+  if (!options.save_config.empty()) {
+    write_file(options.save_config, schema::write_configuration(config));
+  }
+  if (!manners.quiet) watch.report(config);
   report_refusals(state, manners);
 }
 

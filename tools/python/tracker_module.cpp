@@ -108,7 +108,7 @@ class LiveTracker {
       throw std::invalid_argument(
           "a scan is an array (n, 2), with n covariances and labels, if any");
     }
-    const Eigen::Matrix2d usual = config_.noise * config_.noise * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d usual = noise_of(config_).cwiseAbs2().asDiagonal();
     std::vector<Detection> all(static_cast<std::size_t>(count));
     for (py::ssize_t i = 0; i < count; ++i) {
       Detection& detection = all[static_cast<std::size_t>(i)];

@@ -105,6 +105,9 @@ bool update(Filter& filter, const Detection& detection) {
 
 std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d& z,
                                      const Eigen::Matrix2d& covariance) {
+  if (const auto* mixed = std::get_if<ImmFilter>(&filter)) {
+    return mixed->log_likelihood(z, covariance);
+  }
   const Eigen::Matrix2d s = innovation_covariance(filter, covariance);
   const double determinant = s.determinant();
   if (!(determinant > 0.0)) return std::nullopt;
@@ -160,6 +163,11 @@ Eigen::Vector2d noise_sigma(const Filter& filter) {
 
 Eigen::Matrix2d position_covariance(const Filter& filter) {
   return innovation_covariance(filter, Eigen::Matrix2d::Zero());
+}
+
+Eigen::Matrix2d widest_covariance(const Filter& filter) {
+  if (const auto* mixed = std::get_if<ImmFilter>(&filter)) return mixed->widest_covariance();
+  return position_covariance(filter);
 }
 
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement) {

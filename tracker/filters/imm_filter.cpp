@@ -1,7 +1,10 @@
 #include "tracker/filters/imm_filter.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +19,9 @@ struct Lifted {
 };
 
 Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
+  const bool is_alike = from.motion().index() == to.motion().index() &&
+                        from.state().size() == to.state().size();
+  if (is_alike) return {from.state(), from.covariance()};
   Lifted known{to.state(), to.covariance()};
   const Eigen::Index n = known.x.size();
   std::vector<int> source(static_cast<std::size_t>(n), -1);
@@ -80,11 +86,14 @@ void ImmFilter::mix(double dt) {
 
   std::vector<double> arrived(modes_.size());
   std::vector<Lifted> mixtures;
+  mixtures.reserve(modes_.size());
+  std::vector<std::pair<double, Lifted>> parts;
+  parts.reserve(modes_.size());
   for (std::size_t j = 0; j < modes_.size(); ++j) {
     const MotionFilter& own = modes_[j].filter;
     Lifted mixture{MotionState::Zero(own.state().size()),
                    MotionCovariance::Zero(own.state().size(), own.state().size())};
-    std::vector<std::pair<double, Lifted>> parts;
+    parts.clear();
     for (std::size_t i = 0; i < modes_.size(); ++i) {
       const double weight = (i == j ? stay : leave) * modes_[i].weight;
       arrived[j] += weight;
@@ -167,6 +176,27 @@ bool ImmFilter::update(const Measurement& measured) {
   misses_ = 0;
   ++updates_;
   return true;
+}
+
+double ImmFilter::log_likelihood(const Vector& z, const Matrix& covariance) const {
+  double density = 0.0;
+  for (const Mode& mode : modes_) {
+    const Matrix s = mode.filter.innovation_covariance(covariance);
+    const Vector r = z - mode.filter.estimate().position;
+    density += mode.weight * std::exp(-0.5 * r.dot(s.inverse() * r)) /
+               (2.0 * std::numbers::pi * std::sqrt(s.determinant()));
+  }
+  return std::log(std::max(density, std::numeric_limits<double>::min()));
+}
+
+ImmFilter::Matrix ImmFilter::widest_covariance() const {
+  Matrix widest = covariance_;
+  for (const Mode& mode : modes_) {
+    const Vector d = mode.filter.estimate().position - estimate_.position;
+    const Matrix own = mode.filter.innovation_covariance(Matrix::Zero()) + d * d.transpose();
+    if (own.trace() > widest.trace()) widest = own;
+  }
+  return widest;
 }
 
 void ImmFilter::coast() {

@@ -1,0 +1,47 @@
+#include "tracker/learning/coverage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace ghtrack {
+namespace {
+
+std::optional<double> revisit_of(const std::vector<Scan>& scans) {
+  std::vector<const Scan*> own;
+  for (const Scan& scan : scans) own.push_back(&scan);
+  return revisit_time(own);
+}
+
+/// Objects that are reported in turn, one in each scan, with a normal error.
+std::vector<Scan> in_turn(int objects, double speed, double noise) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0.0, noise);
+  std::vector<Scan> scans;
+  for (int k = 0; k < 120; ++k) {
+    const double time = 0.5 * k;
+    const double angle = 1.5 * (k % objects);
+    const double x = 1000.0 * std::cos(angle) + speed * time + normal(random);
+    const double y = 1000.0 * std::sin(angle) + normal(random);
+    scans.push_back({.time = time, .sensor = 0, .detections = {{.position = {x, y}, .label = {}}}});
+  }
+  return scans;
+}
+
+// Derived: four objects in turn, one every half a second, are each seen every two seconds.
+TEST(Coverage, OneObjectAtATimeIsRecognisedWithItsTurn) {
+  const auto revisit = revisit_of(in_turn(4, 10.0, 5.0));
+  ASSERT_TRUE(revisit.has_value());
+  EXPECT_NEAR(*revisit, 2.0, 1e-9);
+}
+
+// Property: one object alone, at rest or on its way, is no turn of several.
+TEST(Coverage, ASingleObjectIsSeenWholly) {
+  EXPECT_FALSE(revisit_of(in_turn(1, 0.0, 5.0)).has_value());
+  EXPECT_FALSE(revisit_of(in_turn(1, 300.0, 5.0)).has_value());
+}
+
+}  // namespace
+}  // namespace ghtrack

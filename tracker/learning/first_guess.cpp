@@ -1,0 +1,141 @@
+#include "tracker/learning/first_guess.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+namespace ghtrack {
+namespace {
+
+constexpr std::size_t kMostLooks = 150;    // that are looked at, in the middle of three
+constexpr std::size_t kMostMiddles = 8;    // detections of one look
+constexpr std::size_t kPredecessors = 5;   // of one detection
+constexpr double kMostUneven = 3.0;        // ratio of the two times
+constexpr double kLeastEvidence = 5.0;     // below which nothing seems to move on
+constexpr std::array kShares = {0.05, 0.15, 0.4, 0.8, 0.98};
+
+/// A detection, one that may be the same target's before it, and how well a third one fits.
+struct Pair {
+  double speed;
+  double squared_residual;  // divided by f² [m²]
+  double density;           // of residuals by chance [1/m²]
+};
+
+struct Sample {
+  std::vector<Pair> pairs;
+  double middles = 0.0;  // how many detections were looked at
+};
+
+double area_of(const std::vector<SensorLook>& looks) {
+  Eigen::AlignedBox2d box;
+  for (const SensorLook& look : looks) {
+    for (const Glimpse& seen : look) box.extend(seen.position);
+  }
+  if (box.isEmpty()) return 0.0;
+  const double longest = box.sizes().maxCoeff();
+  return longest * std::max(box.sizes().minCoeff(), 0.1 * longest);
+}
+
+void collect(const std::vector<SensorLook>& looks, Sample& sample) {
+  const double area = area_of(looks);
+  if (looks.size() < 3 || !(area > 0.0)) return;
+  const std::size_t stride = (looks.size() - 2 + kMostLooks - 1) / kMostLooks;
+  std::vector<std::pair<double, const Glimpse*>> before;
+  for (std::size_t k = 1; k + 1 < looks.size(); k += stride) {
+    const SensorLook& middles = looks[k];
+    const SensorLook& next = looks[k + 1];
+    if (next.empty()) continue;
+    const std::size_t step = (middles.size() + kMostMiddles - 1) / kMostMiddles;
+    for (std::size_t j = 0; j < middles.size(); j += step) {
+      const Glimpse& b = middles[j];
+      ++sample.middles;
+      before.clear();
+      for (const Glimpse& a : looks[k - 1]) {
+        before.emplace_back((a.position - b.position).squaredNorm(), &a);
+      }
+      const std::size_t count = std::min(kPredecessors, before.size());
+      std::partial_sort(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(count),
+                        before.end(),
+                        [](const auto& x, const auto& y) { return x.first < y.first; });
+      for (std::size_t i = 0; i < count; ++i) {
+        const Glimpse& a = *before[i].second;
+        const double elapsed = b.time - a.time;
+        if (!(elapsed > 0.0)) continue;
+        const Eigen::Vector2d velocity = (b.position - a.position) / elapsed;
+        double least = std::numeric_limits<double>::infinity();
+        double factor = 1.0;
+        for (const Glimpse& c : next) {
+          const double ratio = (c.time - b.time) / elapsed;
+          if (!(ratio > 1.0 / kMostUneven && ratio < kMostUneven)) continue;
+          const double f2 = 1.0 + (1.0 + ratio) * (1.0 + ratio) + ratio * ratio;
+          const Eigen::Vector2d residual =
+              c.position - b.position - velocity * (c.time - b.time);
+          if (residual.squaredNorm() / f2 >= least) continue;
+          least = residual.squaredNorm() / f2;
+          factor = f2;
+        }
+        if (!std::isfinite(least)) continue;
+        sample.pairs.push_back({.speed = velocity.norm(),
+                                .squared_residual = least,
+                                .density = factor * static_cast<double>(next.size()) / area});
+      }
+    }
+  }
+}
+
+/// Noises to try, evenly spaced by their logarithm over the residuals there are.
+std::vector<double> noises_of(const std::vector<Pair>& pairs) {
+  constexpr int kNoises = 16;
+  std::vector<double> residuals;
+  double longest = 0.0;
+  for (const Pair& pair : pairs) {
+    residuals.push_back(std::sqrt(pair.squared_residual));
+    longest = std::max(longest, residuals.back());
+  }
+  std::sort(residuals.begin(), residuals.end());
+  const double least = std::max(0.3 * residuals[residuals.size() / 20], 1e-9 * longest);
+  const double most = std::max(residuals[residuals.size() * 9 / 10], 2.0 * least);
+  std::vector<double> noises;
+  for (int i = 0; i < kNoises; ++i) {
+    noises.push_back(least * std::pow(most / least, i / (kNoises - 1.0)));
+  }
+  return noises;
+}
+
+}  // namespace
+
+std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> sensors) {
+  Sample sample;
+  for (const auto& looks : sensors) collect(looks, sample);
+  std::vector<Pair>& pairs = sample.pairs;
+  if (pairs.empty()) return std::nullopt;
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& a, const Pair& b) { return a.speed < b.speed; });
+  Scales best;
+  for (const double noise : noises_of(pairs)) {
+    if (!(noise > 0.0)) continue;
+    const double variance = noise * noise;
+    for (const double share : kShares) {
+      double evidence = 0.0;
+      double real = 0.0;
+      for (const Pair& pair : pairs) {  // slowest first
+        const double odds = share / (1.0 - share) *
+                            std::exp(-0.5 * pair.squared_residual / variance) /
+                            (2.0 * std::numbers::pi * variance * pair.density);
+        evidence += std::log((1.0 - share) * (1.0 + odds));
+        real += odds / (1.0 + odds);
+        if (evidence <= best.evidence) continue;
+        best = {.noise = noise, .speed = pair.speed, .share = real, .evidence = evidence};
+      }
+    }
+  }
+  if (best.evidence < kLeastEvidence) return std::nullopt;
+  best.share = std::clamp(best.share / sample.middles, 0.0, 1.0);
+  return best;
+}
+
+}  // namespace ghtrack

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace ghtrack {
+
+/// Where something was seen, and when.
+struct Glimpse {
+  double time = 0.0;                                   // [s]
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m]
+};
+
+/// What a sensor saw in one look, each target at most once.
+using SensorLook = std::vector<Glimpse>;
+
+/// The scales of an unknown scene.
+struct Scales {
+  double noise = 1.0;     // 1-sigma error of a detection per axis, with what targets manoeuvre [m]
+  double speed = 1.0;     // of the fastest [m/s]
+  double share = 1.0;     // of the detections that are of targets which were seen before and after
+  double evidence = 0.0;  // ln of how much likelier this is than that nothing moves on
+};
+
+/// Finds the scales of noise and speed without a tracker and without units, from three looks in
+/// turn: a detection b, one before it, a, and the nearest to where the line from a to b leads, c.
+/// Of a target the residual, divided by its factor f = √(1 + (1 + α)² + α²), α the ratio of the
+/// times, is normal with the noise; of chance it is spread as the detections are. For the pairs a, b
+/// no faster than some speed, of which a share p goes on, the evidence is
+///   Σ ln(1 − p + p N(c; a, b, σ² f²) / density);
+/// the noise, share and speed for which it is greatest are returned.
+/// @param sensors  of each sensor its looks, in the order of time
+/// @return nothing where nothing seems to go on
+std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> sensors);
+
+}  // namespace ghtrack
