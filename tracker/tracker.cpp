@@ -82,7 +82,7 @@ TrackSnapshot snapshot(const TrackerState& state) {
          .sigma = position_sigma(track.filter),
          .covariance = innovation_covariance(track.filter, Eigen::Matrix2d::Zero()),
          .innovation_covariance = track.innovation_covariance,
-         .gains = steady_gains(track.filter),
+         .gains = steady_gains(track.filter).value_or(Gains{}),
          .noise_sigma = noise_sigma(track.filter),
          .designed = designed_step(track.filter)});
   }

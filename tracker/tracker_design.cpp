@@ -38,11 +38,11 @@ TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sen
   }
   std::map<std::string, FilterConfig> by_label = config_.filters;
   by_label.try_emplace(std::string(TrackerConfig::kDefaultFilter), default_filter(config_.filters));
-  // Gains that somebody has set are meant for the sensor that tells most in a given time.
   const auto best = std::min_element(
       sensors_.begin(), sensors_.end(), [](const SensorTraits& a, const SensorTraits& b) {
         return a.sigma * a.sigma * a.period < b.sigma * b.sigma * b.period;
       });
+  best_ = static_cast<int>(best - sensors_.begin());
   for (const SensorTraits& sensor : sensors_) {
     evidence_.emplace_back(config_.existence, sensor);
     FiltersByLabel& filters = filters_.emplace_back();
@@ -52,11 +52,36 @@ TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sen
   }
 }
 
+TrackerDesign::TrackerDesign(const TrackerDesign&) = default;
+TrackerDesign::TrackerDesign(TrackerDesign&&) noexcept = default;
+TrackerDesign& TrackerDesign::operator=(const TrackerDesign&) = default;
+TrackerDesign& TrackerDesign::operator=(TrackerDesign&&) noexcept = default;
+TrackerDesign::~TrackerDesign() = default;
+
 const Filter& TrackerDesign::filter_for(std::string_view label, int sensor) const {
   const FiltersByLabel& filters = filters_.at(static_cast<std::size_t>(sensor));
   const auto found = filters.find(label);
   return found != filters.end() ? found->second
                                 : filters.find(TrackerConfig::kDefaultFilter)->second;
+}
+
+SingleFilterConfig single_filter(const TrackerConfig& config, const std::string& label,
+                                 const std::string& model) {
+  const auto named = [&](const std::string& name) { return config.filters.find(name); };
+  const auto own = named(label);
+  const auto by_default = named(std::string(TrackerConfig::kDefaultFilter));
+  const FilterConfig filter = own != config.filters.end()          ? own->second
+                              : by_default != config.filters.end() ? by_default->second
+                                                                   : default_filter(config.filters);
+  return std::visit(
+      [&](const auto& chosen) -> SingleFilterConfig {
+        if constexpr (requires { bank_of(chosen); }) {
+          return bank_of(chosen).at(model);
+        } else {
+          return chosen;
+        }
+      },
+      filter);
 }
 
 }  // namespace ghtrack

@@ -22,10 +22,19 @@ class TrackerDesign {
   ///         the association is `known`: who knows it decorates a tracker that does not
   TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors);
 
+  // Out of line: to copy all filters is much code.
+  TrackerDesign(const TrackerDesign&);
+  TrackerDesign(TrackerDesign&&) noexcept;
+  TrackerDesign& operator=(const TrackerDesign&);
+  TrackerDesign& operator=(TrackerDesign&&) noexcept;
+  ~TrackerDesign();
+
   const TrackerConfig& config() const { return config_; }
   const SensorTraits& sensor(int index) const {
     return sensors_.at(static_cast<std::size_t>(index));
   }
+  /// The sensor that tells most in a given time: gains are designed for it.
+  const SensorTraits& best_sensor() const { return sensor(best_); }
   /// What a look of that sensor says of existence.
   const Evidence& evidence(int sensor) const {
     return evidence_.at(static_cast<std::size_t>(sensor));
@@ -39,8 +48,13 @@ class TrackerDesign {
 
   TrackerConfig config_;
   std::vector<SensorTraits> sensors_;
+  int best_ = 0;
   std::vector<Evidence> evidence_;       // of each sensor
   std::vector<FiltersByLabel> filters_;  // of each sensor
 };
+
+/// The filter that leads a track of this class, when `model` leads among several (model_name()).
+SingleFilterConfig single_filter(const TrackerConfig& config, const std::string& label,
+                                 const std::string& model);
 
 }  // namespace ghtrack

@@ -37,6 +37,14 @@ struct WorldScene {
   std::optional<VideoConfig> video;
   CompareConfig compare;
 
+  // Out of line: to copy all of this is much code, and every command does.
+  WorldScene();
+  WorldScene(const WorldScene&);
+  WorldScene(WorldScene&&) noexcept;
+  WorldScene& operator=(const WorldScene&);
+  WorldScene& operator=(WorldScene&&) noexcept;
+  ~WorldScene();
+
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("name", &WorldScene::name,

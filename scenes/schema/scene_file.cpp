@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "scenes/schema/configuration.hpp"
 #include "scenes/schema/descriptions.hpp"
 #include "scenes/schema/document.hpp"
 #include "scenes/schema/json_schema.hpp"
+#include "scenes/schema/key_path.hpp"
+#include "scenes/schema/number_text.hpp"
 #include "scenes/schema/reader.hpp"
 #include "scenes/schema/reference.hpp"
 #include "scenes/schema/scene_check.hpp"
@@ -19,6 +22,8 @@ namespace {
 /// A scene file as a whole.
 struct SceneFile {
   Scene scene;
+  /// What would be wrong with the file with one more override; empty if nothing. Absent: not asked.
+  std::function<std::string(const std::string& override)> fault_with;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -30,6 +35,21 @@ struct SceneFile {
     const auto* const world = std::get_if<WorldScene>(&scene);
     if (world == nullptr) return;
     for (const SceneProblem& problem : find_problems(*world)) report(problem.path, problem.message);
+    if (fault_with) check_sweeps(*world, report);
+  }
+
+  /// Each value of a sweep must make a scene; that all together do is left to the comparison.
+  template <class Report>
+  void check_sweeps(const WorldScene& world, Report& report) const {
+    for (const auto& [key, values] : world.compare.sweep) {
+      for (const double value : values) {
+        const std::string fault = fault_with(fmt::format("{}={}", key, schema::shortest(value)));
+        if (fault.empty()) continue;
+        report(schema::join_path("compare.sweep", key),
+               fmt::format("the value {} makes no scene: {}", schema::shortest(value), fault));
+        break;
+      }
+    }
   }
 };
 
@@ -93,9 +113,24 @@ void name_sensors(std::vector<SensorConfig>& sensors) {
 Scene read_scene_text(std::string_view text, const std::string& name,
                       std::span<const std::string> overrides) {
   const std::string default_name = name_from_file(std::filesystem::path(name).stem().string());
+  const auto read = [&](std::span<const std::string> with, SceneFile& file) {
+    std::get<WorldScene>(file.scene).name = default_name;
+    schema::read_configuration(text, name, with, schema::type_of<SceneFile>(), &file);
+  };
   SceneFile file;
-  std::get<WorldScene>(file.scene).name = default_name;
-  schema::read_configuration(text, name, overrides, schema::type_of<SceneFile>(), &file);
+  file.fault_with = [&](const std::string& override) -> std::string {
+    std::vector<std::string> with(overrides.begin(), overrides.end());
+    with.push_back(override);
+    try {
+      SceneFile other;
+      read(with, other);
+      return {};
+    } catch (const SceneError& error) {
+      const Diagnostic& first = error.diagnostics().front();
+      return first.path.empty() ? first.message : first.path + ": " + first.message;
+    }
+  };
+  read(overrides, file);
   if (auto* const series = std::get_if<SeriesScene>(&file.scene)) {
     if (series->name.empty()) series->name = default_name;
   }
@@ -111,7 +146,7 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
 }
 
 std::string write_scene(const Scene& scene) {
-  const SceneFile file{scene};
+  const SceneFile file{scene, {}};
   return schema::to_yaml(schema::to_json(schema::type_of<SceneFile>(), &file));
 }
 

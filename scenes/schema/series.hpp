@@ -11,7 +11,6 @@
 
 #include "scenes/schema/names.hpp"
 #include "tracker/filters/axis_filter.hpp"
-#include "tracker/filters/gains/gains.hpp"
 
 namespace ghtrack {
 
@@ -172,66 +171,24 @@ constexpr std::array<std::pair<std::string_view, GuessAt>, 2> enum_names(GuessAt
       {{"step-before", GuessAt::kStepBefore}, {"first-measurement", GuessAt::kFirstMeasurement}}};
 }
 
-/// Constant gains of order 1: x += g r, dx += h r / dt.
-struct SeriesGh {
-  static constexpr std::string_view kind = "gh";
-  static constexpr std::string_view about = "position and rate; x += g r, dx += h r / dt";
-  double g = 0.2;
-  double h = 0.02;
-
-  template <class Visitor>
-  static void describe(Visitor& v) {
-    v.field("g", &SeriesGh::g, {.unit = "1", .meaning = "share of the residual in the position"});
-    v.field("h", &SeriesGh::h, {.unit = "1", .meaning = "share of the residual in the rate"});
-  }
-};
-
-/// Constant gains of order 2: ddx += 2 k r / dt² (FilterPy's and Brookner's form).
-struct SeriesGhk {
-  static constexpr std::string_view kind = "ghk";
-  static constexpr std::string_view about =
-      "position, rate and acceleration; ddx += 2 k r / dt² as in FilterPy and Brookner";
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> misnomers{
-      {{"gamma", kGammaIsAmbiguous}}};
-  double ddx0 = 0.0;
-  double g = 0.2;
-  double h = 0.02;
-  double k = 0.001;
-
-  template <class Visitor>
-  static void describe(Visitor& v) {
-    v.field("ddx0", &SeriesGhk::ddx0, {.meaning = "initial guess of the acceleration"});
-    v.field("g", &SeriesGhk::g, {.unit = "1", .meaning = "share of the residual in the position"});
-    v.field("h", &SeriesGhk::h, {.unit = "1", .meaning = "share of the residual in the rate"});
-    v.field("k", &SeriesGhk::k,
-            {.unit = "1",
-             .meaning = "share of the residual in the acceleration; 0 keeps it at "
-                        "ddx0, as a known acceleration in the prediction"});
-  }
-};
-
-/// Free gains of any kind, and the filters of AxisFilterConfig that have none.
-using SeriesModel =
-    std::variant<SeriesGh, SeriesGhk, KalmanCvConfig, KalmanCaConfig, LeastSquaresConfig,
-                 ScalarKalmanConfig, DiscreteBayesConfig>;
-
-/// One filter of a series and its initial guess. Any finite gains are accepted: exploring bad ones
-/// is the point.
+/// One filter of a series and its initial guess.
 struct SeriesFilter {
   static constexpr std::string_view about = "one filter and its initial guess";
 
   std::string name;
   double x0 = 0.0;
   double dx0 = 0.0;
+  double ddx0 = 0.0;
   std::optional<double> dt;  // the filter's idea of the time step; absent: the data's [s]
   double sigma = 1.0;        // its idea of the measurements' 1-sigma error
-  SeriesModel model;
+  AxisFilterConfig model;
 
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("name", &SeriesFilter::name, {.meaning = "unique", .required = true});
     v.field("x0", &SeriesFilter::x0, {.meaning = "initial guess of the position"});
     v.field("dx0", &SeriesFilter::dx0, {.meaning = "initial guess of the rate"});
+    v.field("ddx0", &SeriesFilter::ddx0, {.meaning = "initial guess of the acceleration"});
     v.field("dt", &SeriesFilter::dt,
             {.unit = "s",
              .meaning = "the filter's idea of the time step; without it the data's",
@@ -240,7 +197,7 @@ struct SeriesFilter {
     v.field("sigma", &SeriesFilter::sigma,
             {.meaning = "the filter's idea of the 1-sigma error of a measurement, for Kalman filters",
              .above = 0.0});
-    v.tagged("filter", &SeriesFilter::model, {.meaning = "the family, as in `ghtrack filter`"});
+    v.tagged("filter", &SeriesFilter::model, {.meaning = "its kind, as in `ghtrack filter`"});
   }
 
   template <class Report>
@@ -275,6 +232,14 @@ struct SeriesScene {
   GuessAt initial_guess = GuessAt::kStepBefore;
   std::vector<SeriesFilter> filters;
   PlotConfig plot;
+
+  // Out of line: to copy all of this is much code, and every command does.
+  SeriesScene();
+  SeriesScene(const SeriesScene&);
+  SeriesScene(SeriesScene&&) noexcept;
+  SeriesScene& operator=(const SeriesScene&);
+  SeriesScene& operator=(SeriesScene&&) noexcept;
+  ~SeriesScene();
 
   template <class Visitor>
   static void describe(Visitor& v) {

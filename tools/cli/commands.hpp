@@ -35,6 +35,7 @@ struct RunOptions {
   std::optional<bool> video;  // overrides what the scene says
   VideoLook look;
   bool compare = false;       // the video shows the filters under `compare`, on the same run
+  bool smooth = false;        // tracks.csv says, too, what is known afterwards
 };
 
 struct VideoCommandOptions {

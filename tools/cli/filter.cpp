@@ -110,9 +110,9 @@ class Session {
       : options_(options),
         quiet_(quiet),
         rows_(table, options.t_column),
-        plan_(options, rows_.axes()),
+        plan_(options, rows_.axes(), rows_.has_times()),
         step_(options.dt ? *options.dt : rows_.typical_step().value_or(1.0)),
-        filter_(options, plan_, step_, rows_.has_times()) {
+        filter_(options, plan_, step_) {
     if (options.period && !(*options.period > 0.0 && std::isfinite(*options.period))) {
       throw UsageError(fmt::format("filter: --period is {}; it must be positive", *options.period));
     }
@@ -150,7 +150,7 @@ class Session {
   };
 
   void warn_of_unstable_gains() const {
-    const auto violated = plan_.constant ? violated_inequality(*plan_.constant) : std::nullopt;
+    const auto violated = filter_.gains() ? violated_inequality(*filter_.gains()) : std::nullopt;
     if (!violated || quiet_) return;
     fmt::print(stderr, "ghtrack: warning: these gains are unstable: {} does not hold\n", *violated);
   }

@@ -157,6 +157,9 @@ void add_run(CLI::App& app, RunOptions& options) {
   add_look(command, options.look);
   command.add_flag("--compare", options.compare,
                    "let the video show the filters under compare, side by side on the same run");
+  command.add_flag("--smooth", options.smooth,
+                   "tracks.csv gets columns with what is known of each row when all is known: "
+                   "x_smooth, y_smooth, vx_smooth and so on");
   command.footer(
       "Examples:\n"
       "  ghtrack run scenes/three_regimes.yaml\n"

@@ -17,6 +17,7 @@
 #include "tools/cli/run_series.hpp"
 #include "tools/cli/run_watch.hpp"
 #include "tools/cli/scene_source.hpp"
+#include "tools/cli/smoothed_tracks.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_look.hpp"
 #include "tools/film/film.hpp"
@@ -37,6 +38,21 @@ std::vector<std::string> sensor_names(const WorldScene& scene) {
   for (const SensorConfig& sensor : scene.sensors) names.push_back(sensor.name);
   return names;
 }
+
+/// Keeps what the scene's own tracker says.
+class HistoryObserver final : public RunObserver {
+ public:
+  explicit HistoryObserver(const TrackerDesign& design) : history_(design) {}
+
+  void add_tracks(const StepRecord& record) override {
+    if (record.contender != 0 || !record.is_in_order()) return;
+    history_.add(record.tracks, record.observation.scan);
+  }
+  const TrackHistory& history() const { return history_; }
+
+ private:
+  TrackHistory history_;
+};
 
 void warn_of_missed_collisions(const TruthSource& truth, const WorldScene& scene) {
   if (truth.missed_collisions() == 0) return;
@@ -76,6 +92,8 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   RunMetrics metrics(objects, scoring_for(traits_of(scene.sensors)));
   RunObservers observers = {&watch, &files, &metrics};
   if (film) observers.push_back(&*film);
+  std::optional<HistoryObserver> history;
+  if (options.smooth) observers.push_back(&history.emplace(contenders.front().tracker.design()));
   TruthSource& truth = film ? film->truth() : simulated;
   std::vector<RunCounts> counts;
   try {
@@ -100,6 +118,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   write_json(report, [&](std::string_view text) { scores.write(text); });
   scores.commit();
   files.commit();
+  if (history) write_smoothed_tracks(folder / "tracks.csv", history->history());
   results.commit();
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);
   print(to_table(report, terminal_width()));

@@ -2,25 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "scenes/schema/configuration.hpp"
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/usage_error.hpp"
-#include "tracker/filters/gains/analysis.hpp"
-#include "tracker/filters/gains/rules.hpp"
+#include "tracker/filters/gains/design.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
-constexpr std::array<std::string_view, 9> kFilters = {
-    "gh",        "ghk",       "order0",   "least-squares", "fading-memory", "benedict-bordner",
-    "kalman-cv", "kalman-ca", "kalman-1d"};
+/// The kinds of AxisFilterConfig, and two rules that are known as filters.
+std::vector<std::string_view> filter_names() {
+  auto names = []<class... C>(std::type_identity<std::variant<C...>>) {
+    return std::vector<std::string_view>{C::kind...};
+  }(std::type_identity<AxisFilterConfig>{});
+  names.insert(names.end(), {gain_design::FadingMemory<1>::kind,
+                             gain_design::BenedictBordner<1>::kind});
+  return names;
+}
 
 double need(const FilterCommandOptions& options, const std::optional<double>& value,
             const char* name) {
@@ -44,33 +50,20 @@ int need_order(const FilterCommandOptions& options) {
   return order;
 }
 
-/// Constant gains, for those filters that have them.
-std::optional<Gains> constant_gains(const FilterCommandOptions& options) {
-  const std::string& filter = options.filter;
-  if (options.gamma) {
-    throw UsageError(fmt::format("filter {}: a bare gamma {}", filter, kGammaIsAmbiguous));
-  }
-  try {
-    if (filter == "order0") return Gains::of_g(need(options, options.g, "--g"));
-    if (filter == "gh") {
-      return Gains::of_gh(need(options, options.g, "--g"), need(options, options.h, "--h"));
-    }
-    if (filter == "ghk") {
-      return Gains::of_ghk(need(options, options.g, "--g"), need(options, options.h, "--h"),
-                           need(options, options.k, "--k"));
-    }
-    if (filter == "benedict-bordner") {
-      return benedict_bordner_gains(need(options, options.g, "--g"));
-    }
-    if (filter == "fading-memory") {
-      return fading_memory_gains(need_order(options), need(options, options.theta, "--theta"));
-    }
-  } catch (const UsageError&) {
-    throw;
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("filter {}: {}", filter, error.what()));
-  }
-  return std::nullopt;
+template <int Order>
+using Free = gain_design::Manual<Order, gain_design::Stability::kFree>;
+
+/// A filter with the gains of a rule; rows without times of their own are all a nominal step apart.
+template <int Order, class Rule>
+AxisFilterConfig with_gains(const Rule& rule, bool are_timed) {
+  FreeGains<Order> config{.design = rule};
+  if (!are_timed) config.irregular_time = IrregularTime::kFixedGains;
+  return config;
+}
+
+template <int Order>
+AxisFilterConfig fading_memory(double theta, bool are_timed) {
+  return with_gains<Order>(gain_design::FadingMemory<Order>{theta}, are_timed);
 }
 
 /// One number for each axis; nothing if the text is empty.
@@ -94,10 +87,29 @@ std::optional<std::vector<double>> parse_vector(const std::string& text, const c
 }
 
 /// A configuration as in a scene, {kind: {…}}, or a bare name whose short options fill the same.
-std::optional<AxisFilterConfig> configuration(const FilterCommandOptions& options) {
+/// @return nothing for the Kalman filters of --q and --r, whose first covariance no scene can say
+std::optional<AxisFilterConfig> configuration(const FilterCommandOptions& options, bool are_timed) {
   const std::string& text = options.filter;
+  const auto g = [&] { return need(options, options.g, "--g"); };
+  const auto h = [&] { return need(options, options.h, "--h"); };
   if (text.find_first_of("{:") != std::string::npos) {
     return schema::read_configuration_text<AxisFilterConfig>(text, "--filter");
+  }
+  if (text == FreeGains<0>::kind) return with_gains<0>(Free<0>{.g = g()}, are_timed);
+  if (text == FreeGains<1>::kind) return with_gains<1>(Free<1>{.g = g(), .h = h()}, are_timed);
+  if (text == FreeGains<2>::kind) {
+    return with_gains<2>(Free<2>{.g = g(), .h = h(), .k = need(options, options.k, "--k")},
+                         are_timed);
+  }
+  if (text == gain_design::BenedictBordner<1>::kind) {
+    return with_gains<1>(gain_design::BenedictBordner<1>{g()}, are_timed);
+  }
+  if (text == gain_design::FadingMemory<1>::kind) {
+    const double theta = need(options, options.theta, "--theta");
+    const int order = need_order(options);
+    return order == 0   ? fading_memory<0>(theta, are_timed)
+           : order == 1 ? fading_memory<1>(theta, are_timed)
+                        : fading_memory<2>(theta, are_timed);
   }
   if (text == LeastSquaresConfig::kind) return LeastSquaresConfig{need_order(options)};
   if (text == ScalarKalmanConfig::kind) {
@@ -108,7 +120,7 @@ std::optional<AxisFilterConfig> configuration(const FilterCommandOptions& option
   }
   if (text == KalmanCvConfig::kind || text == KalmanCaConfig::kind) return std::nullopt;
   throw UsageError(fmt::format("filter: unknown filter '{}'{}", printable(text),
-                               hint(text, "filters", kFilters)));
+                               hint(text, "filters", filter_names())));
 }
 
 /// The textbook's Kalman filter of --q and --r, whose random acceleration is new at every step.
@@ -127,12 +139,13 @@ KalmanFilter<Order, 1> kalman(const FilterCommandOptions& options, double dt,
 
 }  // namespace
 
-FilterPlan::FilterPlan(const FilterCommandOptions& options, std::size_t axes)
-    : guess(axes), constant(constant_gains(options)) {
-  if (!constant) config = configuration(options);
-  order = constant ? constant->order
-          : config ? order_of(*config)
-                   : (options.filter == KalmanCaConfig::kind ? 2 : 1);
+FilterPlan::FilterPlan(const FilterCommandOptions& options, std::size_t axes, bool are_timed)
+    : guess(axes) {
+  if (options.gamma) {
+    throw UsageError(fmt::format("filter {}: a bare gamma {}", options.filter, kGammaIsAmbiguous));
+  }
+  config = configuration(options, are_timed);
+  order = config ? order_of(*config) : options.filter == KalmanCaConfig::kind ? 2 : 1;
   const auto x0 = parse_vector(options.x0, "--x0", axes);
   const auto dx0 = parse_vector(options.dx0, "--dx0", axes);
   const auto ddx0 = parse_vector(options.ddx0, "--ddx0", axes);
@@ -144,26 +157,27 @@ FilterPlan::FilterPlan(const FilterCommandOptions& options, std::size_t axes)
   }
 }
 
-AxisFilters::AxisFilters(const FilterCommandOptions& options, const FilterPlan& plan,
-                           double dt, bool are_timed)
-    : options_(options), plan_(plan), dt_(dt), are_timed_(are_timed) {
+AxisFilters::AxisFilters(const FilterCommandOptions& options, const FilterPlan& plan, double dt)
+    : options_(options), plan_(plan), dt_(dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) {
     throw UsageError(fmt::format("filter: --dt is {}; it must be positive", dt));
   }
-  for (std::size_t axis = 0; axis < plan.guess.size(); ++axis) {
-    AxisFilter filter = make(axis, std::nullopt);
-    if (plan.has_guess) axes_.push_back(std::move(filter));
+  try {
+    for (std::size_t axis = 0; axis < plan.guess.size(); ++axis) {
+      AxisFilter filter = make(axis, std::nullopt);
+      if (const auto* gains = std::get_if<GainFilter<1>>(&filter)) gains_ = gains->steady_gains();
+      if (plan.has_guess) axes_.push_back(std::move(filter));
+    }
+  } catch (const UsageError&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("filter {}: {}", printable(options.filter), error.what()));
   }
 }
 
 AxisFilter AxisFilters::make(std::size_t axis, const std::optional<double>& first) const {
   Kinematics<1> guess = plan_.guess[axis];
   if (first) guess.position[0] = *first;
-  if (plan_.constant) {
-    return GainFilter<1>(
-        *plan_.constant, dt_, guess, 1.0,
-        are_timed_ ? IrregularTime::kGainsFromCovariance : IrregularTime::kFixedGains);
-  }
   if (!plan_.config) {
     return options_.filter == KalmanCaConfig::kind
                ? AxisFilter(kalman<2>(options_, dt_, guess, first.has_value()))
@@ -171,11 +185,11 @@ AxisFilter AxisFilters::make(std::size_t axis, const std::optional<double>& firs
   }
   const double sigma =
       options_.r ? std::sqrt(need_variance(options_, options_.r, "--r")) : 1.0;
-  // Least squares takes its derivatives from the guess until it knows better.
-  const bool has_guess = !first || std::holds_alternative<LeastSquaresConfig>(*plan_.config);
-  AxisFilter filter = make_axis_filter(*plan_.config, sigma, dt_,
-                                       has_guess ? std::optional(guess) : std::nullopt);
-  if (first) ghtrack::start(filter, *first);
+  if (!first || needs_guess(*plan_.config)) {
+    return make_axis_filter(*plan_.config, sigma, dt_, guess);
+  }
+  AxisFilter filter = make_axis_filter(*plan_.config, sigma, dt_, std::nullopt);
+  ghtrack::start(filter, *first);
   return filter;
 }
 
@@ -212,11 +226,6 @@ bool AxisFilters::update(const std::vector<double>& z, const MeasuredRow& row) {
     used = filter->update(measured, gains) && used;
   }
   return used;
-}
-
-const Kinematics<1>& AxisFilters::estimate(std::size_t axis) const {
-  return std::visit([](const auto& filter) -> const Kinematics<1>& { return filter.estimate(); },
-                    axes_[axis]);
 }
 
 Refusals AxisFilters::refusals() const {

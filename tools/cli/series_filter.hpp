@@ -14,12 +14,12 @@ namespace ghtrack::cli {
 struct FilterPlan {
   /// @throws UsageError if the options do not fit the filter
   /// @throws SceneError if --filter is a configuration with faults
-  FilterPlan(const FilterCommandOptions& options, std::size_t axes);
+  /// @param are_timed  rows have times of their own: constant gains are meant for the nominal step
+  FilterPlan(const FilterCommandOptions& options, std::size_t axes, bool are_timed);
 
   bool has_guess = false;
   std::vector<Kinematics<1>> guess;        // by axis; derivatives without --x0, too
-  std::optional<Gains> constant;           // for filters that are nothing but gains
-  std::optional<AxisFilterConfig> config;  // of any other that is configured as in a scene
+  std::optional<AxisFilterConfig> config;  // nothing: the textbook's Kalman filter of --q and --r
   int order = 1;
 };
 
@@ -27,11 +27,11 @@ struct FilterPlan {
 /// know of each other.
 class AxisFilters {
  public:
-  /// @param dt         nominal time between rows [s]
-  /// @param are_timed  rows have times of their own: constant gains are meant for dt
-  AxisFilters(const FilterCommandOptions& options, const FilterPlan& plan, double dt,
-               bool are_timed);
+  /// @param dt  nominal time between rows [s]
+  AxisFilters(const FilterCommandOptions& options, const FilterPlan& plan, double dt);
 
+  /// Of a filter with gains those that it settles at.
+  const std::optional<Gains>& gains() const { return gains_; }
   bool is_started() const { return !axes_.empty(); }
   /// Takes the first measurements as the positions.
   void start(const MeasuredRow& row);
@@ -41,7 +41,7 @@ class AxisFilters {
   /// @throws UsageError if the filter has no such gains
   bool update(const std::vector<double>& z, const MeasuredRow& row);
 
-  const Kinematics<1>& estimate(std::size_t axis) const;
+  const Kinematics<1>& estimate(std::size_t axis) const { return ghtrack::estimate(axes_[axis]); }
   Refusals refusals() const;
 
  private:
@@ -50,7 +50,7 @@ class AxisFilters {
   const FilterCommandOptions& options_;
   const FilterPlan& plan_;
   double dt_;
-  bool are_timed_;
+  std::optional<Gains> gains_;
   std::vector<AxisFilter> axes_;
 };
 

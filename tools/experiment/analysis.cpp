@@ -207,8 +207,7 @@ GainSurface surface_of(const Trial& trial, const std::string& regime,
   }
   for (std::size_t i = 0; i < trial.contenders().size(); ++i) {
     const Filter& filter = trial.design(i).filter_for(regime, 0);
-    const Gains gains = steady_gains(filter);
-    if (name(filter) == "gh") surface.marks.push_back({i, gains});
+    if (name(filter) == "gh") surface.marks.push_back({i, *steady_gains(filter)});
   }
   return surface;
 }

@@ -15,6 +15,12 @@ SceneTracker::SceneTracker(TrackerConfig config, std::vector<SensorTraits> senso
   if (is_known(config)) state_.emplace<KnownReplayState>();
 }
 
+SceneTracker::SceneTracker(const SceneTracker&) = default;
+SceneTracker::SceneTracker(SceneTracker&&) noexcept = default;
+SceneTracker& SceneTracker::operator=(const SceneTracker&) = default;
+SceneTracker& SceneTracker::operator=(SceneTracker&&) noexcept = default;
+SceneTracker::~SceneTracker() = default;
+
 ScanFate SceneTracker::step(const Observation& observation) {
   if (auto* blind = std::get_if<ReplayState>(&state_)) {
     *blind = ghtrack::step(design_, std::move(*blind), observation.scan);

@@ -19,6 +19,13 @@ class SceneTracker {
   /// @throws std::invalid_argument if a filter cannot be designed, such as for unstable gains
   SceneTracker(TrackerConfig config, std::vector<SensorTraits> sensors);
 
+  // Out of line: to copy all filters is much code.
+  SceneTracker(const SceneTracker&);
+  SceneTracker(SceneTracker&&) noexcept;
+  SceneTracker& operator=(const SceneTracker&);
+  SceneTracker& operator=(SceneTracker&&) noexcept;
+  ~SceneTracker();
+
   /// Processes an observation that has arrived.
   ScanFate step(const Observation& observation);
 

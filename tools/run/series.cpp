@@ -58,38 +58,10 @@ std::vector<SeriesMeasurement> measure(const WalkSeries& walk, double, std::uint
   return measurements;
 }
 
-Gains gains_of(const SeriesGh& model) { return Gains::of_gh(model.g, model.h); }
-Gains gains_of(const SeriesGhk& model) { return Gains::of_ghk(model.g, model.h, model.k); }
-double initial_acceleration(const SeriesGh&) { return 0.0; }
-double initial_acceleration(const SeriesGhk& model) { return model.ddx0; }
-
-/// A filter ready to go, and what to call it.
-struct Prepared {
-  AxisFilter filter;
-  std::string gains;
-  int order = 1;
-};
-
-Prepared prepared(const SeriesFilter& config, double dt) {
-  Kinematics<1> guess;
-  guess.position[0] = config.x0;
-  guess.velocity[0] = config.dx0;
-  return std::visit(
-      [&](const auto& model) -> Prepared {
-        if constexpr (requires { gains_of(model); }) {
-          guess.acceleration[0] = initial_acceleration(model);
-          const Gains gains = gains_of(model);
-          return {GainFilter<1>(gains, dt, guess), to_text(gains), gains.order};
-        } else {
-          return {make_axis_filter(model, config.sigma, dt, guess), std::string(model.kind),
-                  order_of(model)};
-        }
-      },
-      config.model);
-}
-
-const Kinematics<1>& estimate_of(const AxisFilter& filter) {
-  return std::visit([](const auto& f) -> const Kinematics<1>& { return f.estimate(); }, filter);
+/// Such as "g=0.2 h=0.02", or the kind of a filter without constant gains.
+std::string gains_text(const AxisFilter& filter, const AxisFilterConfig& config) {
+  if (const auto* gains = std::get_if<GainFilter<1>>(&filter)) return gains->gains_text();
+  return std::visit([](const auto& chosen) { return std::string(chosen.kind); }, config);
 }
 
 discrete_bayes::Belief belief_of(const AxisFilter& filter) {
@@ -116,10 +88,14 @@ class MeanSquare {
 SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
                    const std::vector<SeriesMeasurement>& measurements) {
   const double dt = config.dt.value_or(scene.dt);
-  auto [filter, gains, order] = prepared(config, dt);
+  Kinematics<1> guess;
+  guess.position[0] = config.x0;
+  guess.velocity[0] = config.dx0;
+  guess.acceleration[0] = config.ddx0;
+  AxisFilter filter = make_axis_filter(config.model, config.sigma, dt, guess);
   SeriesTrack track{.filter = config.name,
-                    .gains = gains,
-                    .order = order,
+                    .gains = gains_text(filter, config.model),
+                    .order = order_of(config.model),
                     .rows = {},
                     .beliefs = {},
                     .rmse = {},
@@ -133,7 +109,7 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
     const SeriesMeasurement& now = measurements[i];
     const bool is_guess = i == 0 && guess_is_first;
     if (!is_guess) std::visit([dt](auto& f) { f.predict(dt); }, filter);
-    const Kinematics<1> prior = estimate_of(filter);
+    const Kinematics<1> prior = estimate(filter);
     SeriesBelief belief{belief_of(filter), {}};
     std::optional<Vector1> residual;
     if (!is_guess) {
@@ -143,7 +119,7 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
           },
           filter);
     }
-    const Kinematics<1>& posterior = estimate_of(filter);
+    const Kinematics<1>& posterior = estimate(filter);
     belief.posterior = belief_of(filter);
     if (!belief.posterior.empty()) track.beliefs.push_back(std::move(belief));
     SeriesRow row{.k = static_cast<int>(i) + 1,

@@ -10,12 +10,19 @@
 namespace ghtrack::view {
 namespace {
 
-/// Of a filter without gains those of a g-h filter, should it become one.
-SeriesGhk gains_of(const SeriesModel& model) {
-  if (const auto* ghk = std::get_if<SeriesGhk>(&model)) return *ghk;
-  const auto* const gh = std::get_if<SeriesGh>(&model);
-  const SeriesGh gains = gh != nullptr ? *gh : SeriesGh();
-  return {.ddx0 = 0.0, .g = gains.g, .h = gains.h, .k = 0.0};
+using Free = gain_design::Manual<2, gain_design::Stability::kFree>;
+
+/// Of a filter without gains given as numbers those of a g-h filter, should it become one.
+Free gains_of(const AxisFilterConfig& model) {
+  constexpr auto kFree = gain_design::Stability::kFree;
+  if (const auto* ghk = std::get_if<FreeGains<2>>(&model)) {
+    if (const auto* gains = std::get_if<Free>(&ghk->design)) return *gains;
+  }
+  gain_design::Manual<1, kFree> gains;
+  if (const auto* gh = std::get_if<FreeGains<1>>(&model)) {
+    if (const auto* given = std::get_if<gain_design::Manual<1, kFree>>(&gh->design)) gains = *given;
+  }
+  return {.g = gains.g, .h = gains.h, .k = 0.0};
 }
 
 /// A knob whose ends hold its value.
@@ -27,7 +34,7 @@ Knob knob(const char* name, double low, double high, double value, bool is_finer
 
 SeriesPlayer::SeriesPlayer(const SeriesScene& scene) : scene_(scene) {
   const SeriesFilter& filter = scene_.filters.back();
-  const SeriesGhk gains = gains_of(filter.model);
+  const Free gains = gains_of(filter.model);
   const SeriesResult result = run(scene_);
   const auto [least, most] =
       std::minmax_element(result.tracks.front().rows.begin(), result.tracks.front().rows.end(),
@@ -49,14 +56,15 @@ void SeriesPlayer::turn(std::size_t knob, double value) {
   SeriesFilter& filter = scene_.filters.back();
   filter.x0 = knobs_[kX].value;
   filter.dx0 = knobs_[kDx].value;
-  SeriesGhk gains = gains_of(filter.model);
+  Free gains = gains_of(filter.model);
   gains.g = knobs_[kG].value;
   gains.h = knobs_[kH].value;
   gains.k = knobs_[kK].value;
-  if (gains.k != 0.0 || std::holds_alternative<SeriesGhk>(filter.model))
-    filter.model = gains;
+  if (gains.k != 0.0 || std::holds_alternative<FreeGains<2>>(filter.model))
+    filter.model = FreeGains<2>{.design = gains};
   else
-    filter.model = SeriesGh{gains.g, gains.h};
+    filter.model = FreeGains<1>{
+        .design = gain_design::Manual<1, gain_design::Stability::kFree>{gains.g, gains.h}};
   if (auto* data = std::get_if<GeneratedSeries>(&scene_.data)) data->noise = knobs_[kNoise].value;
   show();
 }

@@ -1,5 +1,7 @@
 #include "tracker/filters/axis_filter.hpp"
 
+#include <type_traits>
+
 #include "tracker/filters/filter_design.hpp"
 
 namespace ghtrack {
@@ -12,9 +14,18 @@ F from_guess(F filter, const std::optional<Kinematics<1>>& guess) {
 }
 
 template <int Order>
-AxisFilter make(const GainFilterConfig<Order>& config, double sigma, double dt,
+bool is_constant(const FreeGains<Order>& config) {
+  return !config.schedule && !config.start_up;
+}
+
+template <int Order>
+AxisFilter make(const FreeGains<Order>& config, double sigma, double dt,
                 const std::optional<Kinematics<1>>& guess) {
-  const GainDesign design = designed(config, sigma, dt);
+  GainDesign design = designed(config, sigma, dt);
+  if (is_constant(config)) {
+    design.schedule.source = GainSource::kTable;
+    design.schedule.start_up = StartUp::kNone;
+  }
   return from_guess(GainFilter<1>(design.schedule, design.errors), guess);
 }
 
@@ -41,7 +52,7 @@ AxisFilter make(const DiscreteBayesConfig& config, double, double,
 }
 
 template <int Order>
-int order_of_one(const GainFilterConfig<Order>&) {
+int order_of_one(const FreeGains<Order>&) {
   return Order;
 }
 template <int Order>
@@ -60,12 +71,25 @@ AxisFilter make_axis_filter(const AxisFilterConfig& config, double sigma, double
   return std::visit([&](const auto& chosen) { return make(chosen, sigma, dt, guess); }, config);
 }
 
+bool needs_guess(const AxisFilterConfig& config) {
+  return std::visit(
+      [](const auto& chosen) {
+        if constexpr (requires { is_constant(chosen); }) return is_constant(chosen);
+        return std::is_same_v<std::decay_t<decltype(chosen)>, LeastSquaresConfig>;
+      },
+      config);
+}
+
 int order_of(const AxisFilterConfig& config) {
   return std::visit([](const auto& chosen) { return order_of_one(chosen); }, config);
 }
 
 void start(AxisFilter& filter, double z) {
   std::visit([z](auto& f) { f.start(Kinematics<1>::Vector(z)); }, filter);
+}
+
+const Kinematics<1>& estimate(const AxisFilter& filter) {
+  return std::visit([](const auto& f) -> const Kinematics<1>& { return f.estimate(); }, filter);
 }
 
 }  // namespace ghtrack

@@ -51,26 +51,33 @@ struct ScalarKalmanConfig {
   }
 };
 
-/// A filter of one variable, as series scenes and `ghtrack filter` try them. Add yours here, and its
-/// filter to AxisFilter.
-using AxisFilterConfig = std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig,
-                                      KalmanCaConfig, LeastSquaresConfig, ScalarKalmanConfig,
-                                      DiscreteBayesConfig>;
+/// A filter of one variable, as series scenes and `ghtrack filter` try them. Any finite gains are
+/// accepted: exploring bad ones is the point. Add yours here, and its filter to AxisFilter.
+using AxisFilterConfig =
+    std::variant<FreeGains<1>, FreeGains<2>, FreeGains<0>, KalmanCvConfig, KalmanCaConfig,
+                 LeastSquaresConfig, ScalarKalmanConfig, DiscreteBayesConfig>;
 using AxisFilter = std::variant<GainFilter<1>, KalmanFilter<1, 1>, KalmanFilter<2, 1>,
                                 LeastSquaresFilter<1>, ScalarKalmanFilter, DiscreteBayesFilter>;
 
+/// Designed gains are constant from the first measurement on, as in the textbook, unless the
+/// configuration asks for a `schedule` or a `start_up`.
 /// @param sigma  1-sigma measurement error, > 0
 /// @param dt     nominal time between measurements [s], > 0
-/// @param guess  that holds before the first step; without it the filter starts at its first
-///               measurement, by start()
-/// @throws std::invalid_argument if σ or dt is not positive and finite, or the gains are unstable
+/// @param guess  that holds before the first step, taken as certain; without it the filter starts
+///               at its first measurement, by start()
+/// @throws std::invalid_argument if σ or dt is not positive and finite
 AxisFilter make_axis_filter(const AxisFilterConfig& config, double sigma, double dt,
                             const std::optional<Kinematics<1>>& guess);
+
+/// Is a filter of this kind made from a guess alone, with nothing to learn at its start?
+bool needs_guess(const AxisFilterConfig& config);
 
 /// The highest derivative that the filter carries.
 int order_of(const AxisFilterConfig& config);
 
 /// Starts a filter that was made without a guess.
 void start(AxisFilter& filter, double z);
+
+const Kinematics<1>& estimate(const AxisFilter& filter);
 
 }  // namespace ghtrack

@@ -42,9 +42,22 @@ std::map<std::string, SingleFilterConfig> bank_of_indices() {
   return bank;
 }
 
+}  // namespace
+
+const std::map<std::string, SingleFilterConfig>& bank_of(const MultipleModelConfig& config) {
+  return config.filters;
+}
+
+const std::map<std::string, SingleFilterConfig>& bank_of(const ImmConfig& config) {
+  static const std::map<std::string, SingleFilterConfig> by_default = bank_of_indices();
+  return config.filters.empty() ? by_default : config.filters;
+}
+
+namespace {
+
 ImmFilter make(const ImmConfig& config, double sigma, double dt) {
   std::vector<ImmFilter::Mode> modes;
-  for (const auto& [label, filter] : config.filters.empty() ? bank_of_indices() : config.filters) {
+  for (const auto& [label, filter] : bank_of(config)) {
     modes.push_back({label, equivalent_motion(filter, sigma, dt)});
   }
   return ImmFilter(std::move(modes), config.switching);
@@ -195,28 +208,40 @@ const GainFilter<2>* designed_gain_filter(const Filter& filter) {
   return std::get_if<GainFilter<2>>(&filter);
 }
 
+namespace {
+
+/// What a filter that settles at constant gains says of itself.
+template <class Result, class Of>
+std::optional<Result> if_it_settles(const Filter& filter, Of&& of) {
+  return std::visit(
+      [&](const auto& f) -> std::optional<Result> {
+        if constexpr (SettlesAtGains<std::decay_t<decltype(f)>>) return of(f);
+        return std::nullopt;
+      },
+      filter);
+}
+
+}  // namespace
+
 std::string gains_text(const Filter& filter) {
-  return std::visit([](const auto& f) { return f.gains_text(); }, filter);
+  return if_it_settles<std::string>(filter, [](const auto& f) { return f.gains_text(); })
+      .value_or("");
 }
 
-Gains steady_gains(const Filter& filter) {
-  return std::visit([](const auto& f) { return f.steady_gains(); }, filter);
+std::optional<Gains> steady_gains(const Filter& filter) {
+  return if_it_settles<Gains>(filter, [](const auto& f) { return f.steady_gains(); });
 }
 
-Lag steady_lag(const Filter& filter, double next_derivative) {
-  return std::visit(
-      [&](const auto& f) {
-        return steady_lag(f.steady_gains(), f.nominal_interval(), next_derivative);
-      },
-      filter);
+std::optional<Lag> steady_lag(const Filter& filter, double next_derivative) {
+  return if_it_settles<Lag>(filter, [&](const auto& f) {
+    return steady_lag(f.steady_gains(), f.nominal_interval(), next_derivative);
+  });
 }
 
-double predicted_rmse(const Filter& filter, double next_derivative) {
-  return std::visit(
-      [&](const auto& f) {
-        return predicted_rmse(f.steady_gains(), f.sigma(), f.nominal_interval(), next_derivative);
-      },
-      filter);
+std::optional<double> predicted_rmse(const Filter& filter, double next_derivative) {
+  return if_it_settles<double>(filter, [&](const auto& f) {
+    return predicted_rmse(f.steady_gains(), f.sigma(), f.nominal_interval(), next_derivative);
+  });
 }
 
 }  // namespace ghtrack

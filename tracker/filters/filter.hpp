@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <concepts>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,8 +38,16 @@ concept PlanarFilter = std::copyable<F> &&
   { constant.position_sigma() } -> std::convertible_to<Eigen::Vector2d>;
   { constant.innovation_covariance(covariance) } -> std::convertible_to<Eigen::Matrix2d>;
   { constant.name() } -> std::convertible_to<std::string_view>;
-  { constant.gains_text() } -> std::convertible_to<std::string>;
-  { constant.steady_gains() } -> std::convertible_to<Gains>;
+};
+
+/// What is known beside it of a filter that settles at constant gains: lag, noise and stability are
+/// those of its gains, see gains/analysis.hpp.
+template <class F>
+concept SettlesAtGains = requires(const F& filter) {
+  { filter.steady_gains() } -> std::convertible_to<Gains>;
+  { filter.gains_text() } -> std::convertible_to<std::string>;
+  { filter.sigma() } -> std::convertible_to<double>;
+  { filter.nominal_interval() } -> std::convertible_to<double>;
 };
 
 template <class Variant>
@@ -58,6 +67,10 @@ static_assert(all_are_planar_filters<Filter>,
 /// @param dt     nominal time between updates [s], > 0
 /// @throws std::invalid_argument if σ or dt is not positive and finite, or the gains are unstable
 Filter make_filter(const FilterConfig& config, double sigma, double dt);
+
+/// The filters that run side by side or are mixed, by name.
+const std::map<std::string, SingleFilterConfig>& bank_of(const MultipleModelConfig& config);
+const std::map<std::string, SingleFilterConfig>& bank_of(const ImmConfig& config);
 
 // The operations of whichever filter it is; see GainFilter.
 
@@ -106,14 +119,16 @@ std::string_view model_name(const Filter& filter);
 /// The filter with designed gains that leads, if it is one: only those have a lag apart from their
 /// predicted error.
 const GainFilter<2>* designed_gain_filter(const Filter& filter);
-/// Such as "g=0.1 h=0.005"; for a Kalman filter the gains that it settles at.
+/// Such as "g=0.1 h=0.005"; for a Kalman filter the gains that it settles at; empty if the filter does
+/// not settle.
 std::string gains_text(const Filter& filter);
-Gains steady_gains(const Filter& filter);
+/// Nothing if the filter does not settle.
+std::optional<Gains> steady_gains(const Filter& filter);
 
 /// Steady error truth − estimate on one axis without noise, under a lasting velocity (order 0),
 /// acceleration (order 1) or jerk (order 2), see steady_lag(Gains, …).
-Lag steady_lag(const Filter& filter, double next_derivative);
+std::optional<Lag> steady_lag(const Filter& filter, double next_derivative);
 /// √(noise² + lag²) of the filtered position on one axis in the steady state.
-double predicted_rmse(const Filter& filter, double next_derivative);
+std::optional<double> predicted_rmse(const Filter& filter, double next_derivative);
 
 }  // namespace ghtrack

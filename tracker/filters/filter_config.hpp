@@ -18,7 +18,8 @@ namespace ghtrack {
 
 /// A filter with designed gains as a scene says it: {gh: {design: benedict-bordner, g: 0.8}}.
 /// @tparam Order  the highest derivative that the filter carries
-template <int Order>
+/// @tparam S      whether gains given as numbers must be stable
+template <int Order, gain_design::Stability S = gain_design::Stability::kRequired>
 struct GainFilterConfig {
   static constexpr std::string_view kind = Order == 0 ? "order0" : Order == 1 ? "gh" : "ghk";
   static constexpr std::string_view about =
@@ -26,7 +27,7 @@ struct GainFilterConfig {
       : Order == 1 ? "Position and velocity with given gains; lags behind an accelerating target."
                    : "Position, velocity and acceleration with given gains.";
 
-  typename gain_design::Rules<Order>::Any design = {};
+  typename gain_design::Rules<Order, S>::Any design = {};
   std::optional<GainSource> schedule = {};
   std::optional<StartUp> start_up = {};
   std::optional<IrregularTime> irregular_time = {};
@@ -123,6 +124,10 @@ struct GainFilterConfig {
 using Order0Config = GainFilterConfig<0>;
 using GhConfig = GainFilterConfig<1>;
 using GhkConfig = GainFilterConfig<2>;
+
+/// The same where bad gains are tried on purpose.
+template <int Order>
+using FreeGains = GainFilterConfig<Order, gain_design::Stability::kFree>;
 
 namespace process {
 

@@ -45,8 +45,8 @@ void require_measurable(double sigma, double dt) {
   }
 }
 
-template <int Order>
-GainDesign designed(const GainFilterConfig<Order>& config, double sigma, double dt) {
+template <int Order, gain_design::Stability S>
+GainDesign designed(const GainFilterConfig<Order, S>& config, double sigma, double dt) {
   GainSchedule schedule{.interval = dt,
                         .source = config.source(),
                         .start_up = config.start_up.value_or(StartUp::kGrowingMemory)};
@@ -61,7 +61,7 @@ GainDesign designed(const GainFilterConfig<Order>& config, double sigma, double 
         apply_rule(rule, schedule, errors);
       },
       config.design);
-  require_stable(schedule.steady);
+  if (S == gain_design::Stability::kRequired) require_stable(schedule.steady);
   schedule.irregular_time = config.irregular_time.value_or(IrregularTime::kGainsFromCovariance);
   if (config.allowed_acceleration) {
     errors.process_model = ProcessModel::kPiecewiseConstant;
@@ -87,9 +87,12 @@ KalmanModel designed(const KalmanConfig<Order>& config, double sigma, double dt)
   return model;
 }
 
-template GainDesign designed(const GainFilterConfig<0>&, double, double);
-template GainDesign designed(const GainFilterConfig<1>&, double, double);
-template GainDesign designed(const GainFilterConfig<2>&, double, double);
+template GainDesign designed(const Order0Config&, double, double);
+template GainDesign designed(const GhConfig&, double, double);
+template GainDesign designed(const GhkConfig&, double, double);
+template GainDesign designed(const FreeGains<0>&, double, double);
+template GainDesign designed(const FreeGains<1>&, double, double);
+template GainDesign designed(const FreeGains<2>&, double, double);
 template KalmanModel designed(const KalmanConfig<1>&, double, double);
 template KalmanModel designed(const KalmanConfig<2>&, double, double);
 

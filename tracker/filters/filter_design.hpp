@@ -20,9 +20,9 @@ struct GainDesign {
   ErrorModel errors;
 };
 
-/// @throws std::invalid_argument if the gains are unstable
-template <int Order>
-GainDesign designed(const GainFilterConfig<Order>& config, double sigma, double dt);
+/// @throws std::invalid_argument if the gains are unstable and must not be
+template <int Order, gain_design::Stability S>
+GainDesign designed(const GainFilterConfig<Order, S>& config, double sigma, double dt);
 
 template <int Order>
 KalmanModel designed(const KalmanConfig<Order>& config, double sigma, double dt);

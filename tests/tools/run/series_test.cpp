@@ -17,7 +17,7 @@ SeriesScene weights() {
   filter.name = "learned";
   filter.x0 = 160.0;
   filter.dx0 = 1.0;
-  filter.model = SeriesGh{.g = 0.6, .h = 2.0 / 3.0};
+  filter.model = FreeGains<1>{.design = gain_design::Manual<1, gain_design::Stability::kFree>{.g = 0.6, .h = 2.0 / 3.0}};
   scene.filters = {filter};
   return scene;
 }
@@ -79,7 +79,7 @@ TEST(Series, AnAcceleratingTargetIsFollowedWithTheClosedFormLag) {
   scene.data = data;
   SeriesFilter filter;
   filter.name = "lagging";
-  filter.model = SeriesGh{.g = 0.2, .h = 0.02};
+  filter.model = FreeGains<1>{};
   scene.filters = {filter};
   const SeriesRow last = run(scene).tracks.at(0).rows.back();
   EXPECT_NEAR(*last.truth - last.x, 0.8 * 9.0 / 0.02, 1e-6);

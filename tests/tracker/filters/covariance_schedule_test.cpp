@@ -86,7 +86,7 @@ TEST(CovarianceSchedule, SettlesAtTheDesignedGains) {
       update(filter, Vector2d(i, -i));
     }
     const Gains used = std::get<GainFilter<2>>(filter).used_gains();
-    const Gains steady = steady_gains(filter);
+    const Gains steady = *steady_gains(filter);
     EXPECT_NEAR(used.g, steady.g, 1e-9);
     EXPECT_NEAR(used.h, steady.h, 1e-9);
     EXPECT_NEAR(used.k, steady.k, 1e-9);

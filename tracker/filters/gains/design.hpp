@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "tracker/filters/gains/analysis.hpp"
@@ -15,6 +17,9 @@
 // highest derivative of the filter: 0 position, 1 velocity, 2 acceleration.
 
 namespace ghtrack::gain_design {
+
+/// Whether gains given as numbers must be those of a stable filter, or may be explored freely.
+enum class Stability { kRequired, kFree };
 
 namespace detail {
 
@@ -29,10 +34,13 @@ void report_instability(const Gains& gains, std::string_view key, Report& report
 
 }  // namespace detail
 
-template <int Order>
+template <int Order, Stability S = Stability::kRequired>
 struct Manual {
   static constexpr std::string_view kind = "manual";
   static constexpr std::string_view about = "Gains given as numbers.";
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> misnomers{
+      {{"gamma", kGammaIsAmbiguous}}};
+  static constexpr bool must_say = S == Stability::kRequired;
   double g = 0.2;
   double h = 0.02;
   double k = 0.001;
@@ -41,22 +49,23 @@ struct Manual {
   static void describe(Visitor& v) {
     v.field(
         "g", &Manual::g,
-        {.unit = "1", .meaning = "share of the residual given to the position", .required = true});
+        {.unit = "1", .meaning = "share of the residual given to the position", .required = must_say});
     if constexpr (Order >= 1) {
       v.field("h", &Manual::h,
               {.unit = "1",
                .meaning = "share of the residual per step given to the velocity",
-               .required = true});
+               .required = must_say});
     }
     if constexpr (Order >= 2) {
       v.field("k", &Manual::k,
               {.unit = "1",
                .meaning = "gain of the acceleration, which gets 2 k residual / T²",
-               .required = true});
+               .required = must_say});
     }
   }
   template <class Report>
   void check(Report&& report) const {
+    if (S == Stability::kFree) return;
     const auto violated = violated_inequality(gains(1.0, 1.0));
     if (!violated) return;
     const bool names_k = *violated == "0 < k" || *violated == "k < g h / (2 - g)";
@@ -226,20 +235,20 @@ struct PolgeBhagavan {
 };
 
 /// The rules for each order; the first one is meant when a scene names none.
-template <int Order>
+template <int Order, Stability S = Stability::kRequired>
 struct Rules;
-template <>
-struct Rules<0> {
-  using Any = std::variant<Manual<0>, FadingMemory<0>, TrackingIndex<0>>;
+template <Stability S>
+struct Rules<0, S> {
+  using Any = std::variant<Manual<0, S>, FadingMemory<0>, TrackingIndex<0>>;
 };
-template <>
-struct Rules<1> {
-  using Any = std::variant<Manual<1>, BenedictBordner<1>, CriticalDamping<1>, FadingMemory<1>,
+template <Stability S>
+struct Rules<1, S> {
+  using Any = std::variant<Manual<1, S>, BenedictBordner<1>, CriticalDamping<1>, FadingMemory<1>,
                            TrackingIndex<1>, MaximumAcceleration>;
 };
-template <>
-struct Rules<2> {
-  using Any = std::variant<Manual<2>, BenedictBordner<2>, CriticalDamping<2>, FadingMemory<2>,
+template <Stability S>
+struct Rules<2, S> {
+  using Any = std::variant<Manual<2, S>, BenedictBordner<2>, CriticalDamping<2>, FadingMemory<2>,
                            TrackingIndex<2>, PolgeBhagavan>;
 };
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sensors/detection.hpp"
+#include "tracker/filters/smoother.hpp"
+#include "tracker/track.hpp"
+#include "tracker/tracker_design.hpp"
+
+namespace ghtrack {
+
+/// What a tracker said after one scan, and what is known of the same tracks afterwards.
+struct SmoothedSnapshot {
+  TrackSnapshot tracks;
+  std::vector<Smoothed> smoothed;  // as many
+};
+
+/// Keeps what a tracker says, to smooth its tracks when all is known (smoothed()). Of several filters
+/// side by side or mixed, the one that led most often carries a track back.
+class TrackHistory {
+ public:
+  explicit TrackHistory(const TrackerDesign& design);
+
+  /// @param scan  after which it says so
+  void add(const TrackSnapshot& now, const Scan& scan);
+
+  /// All that was added, in order.
+  std::vector<SmoothedSnapshot> smoothed() const;
+
+ private:
+  struct OneTrack {
+    std::vector<TimedPosition> moments;
+    std::vector<std::pair<std::size_t, std::size_t>> rows;  // snapshot, index in it
+    std::map<std::string, int> led;                         // scans by model
+  };
+
+  TrackerConfig config_;
+  double sigma_, period_;  // of the sensor that the filters are designed for
+  std::vector<TrackSnapshot> snapshots_;
+  std::map<int, OneTrack> tracks_;  // by id
+};
+
+}  // namespace ghtrack
