@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -22,7 +24,7 @@ PredictedMeasurement predict(const RangeBearingModel& radar, const Vector2d& pos
   const Vector2d offset = position - radar.site;
   const double range = std::max(offset.norm(), kShortestRange);
   const Vector2d along = offset / range;
-  PredictedMeasurement p{Vector2d(range, std::atan2(offset.y(), offset.x())), {}};
+  PredictedMeasurement p{Vector2d(range, portable::atan2(offset.y(), offset.x())), {}};
   p.jacobian.setZero(2, 4);
   p.jacobian.block<1, 2>(0, 0) = along.transpose();
   p.jacobian.block<1, 2>(1, 0) << -along.y() / range, along.x() / range;

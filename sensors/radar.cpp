@@ -16,7 +16,7 @@ Vec2 turned(const Vec2& direction, double angle) {
 }
 
 Measurement as_measured(const PolarMeasurement& polar, const PolarNoise& noise, const Vec2& site) {
-  const double bearing = std::atan2(polar.direction.y(), polar.direction.x());
+  const double bearing = portable::atan2(polar.direction.y(), polar.direction.x());
   const Vec2 variance(noise.range * noise.range, noise.bearing * noise.bearing);
   return {Vec2(polar.range, bearing), Eigen::Matrix2d(variance.asDiagonal()),
           RangeBearingModel{site}};

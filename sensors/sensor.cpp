@@ -44,7 +44,8 @@ double detection_probability(const SensorConfig& sensor, const Vec2& position,
                              const Outline& outline) {
   double probability = sensor.detection_probability;
   if (sensor.half_range) {
-    const double squared = (position - sensor.site).squaredNorm() / std::pow(*sensor.half_range, 2);
+    const double squared =
+        (position - sensor.site).squaredNorm() / (*sensor.half_range * *sensor.half_range);
     probability *= portable::exp(-kLn2 * squared * squared);
   }
   if (sensor.half_size) {

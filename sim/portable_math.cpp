@@ -56,6 +56,12 @@ double unit_atan(double x) {
 }  // namespace
 
 double log(double x) {
+  if (x < std::numeric_limits<double>::min()) {  // 0, negative or subnormal
+    if (x == 0.0) return -std::numeric_limits<double>::infinity();
+    if (x < 0.0) return std::numeric_limits<double>::quiet_NaN();
+    return log(x * 0x1p54) - 54.0 * (kLn2High + kLn2Low);
+  }
+  if (!(x <= std::numeric_limits<double>::max())) return x;  // infinite or not a number
   // x = m 2^k with m in [√½, √2); ln m = 2 artanh((m − 1)/(m + 1)).
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
   int exponent = static_cast<int>((bits >> 52) & 0x7ff) - 1023;
@@ -70,6 +76,12 @@ double log(double x) {
   for (int n = 21; n >= 3; n -= 2) sum = z * (1.0 / n + sum);
   const double k = exponent;
   return k * kLn2High + (2.0 * s + (2.0 * s * sum + k * kLn2Low));
+}
+
+double log1p(double x) {
+  // The rounding of 1 + x cancels in the quotient (Goldberg 1991, theorem 4).
+  const double y = 1.0 + x;
+  return y == 1.0 ? x : log(y) * (x / (y - 1.0));
 }
 
 double exp(double x) {

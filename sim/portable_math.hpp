@@ -16,13 +16,16 @@ struct SinCos {
   double cos;
 };
 
-/// Natural logarithm of a normal number x > 0.
+/// Natural logarithm; −infinity for 0, not a number for x < 0.
 double log(double x);
+
+/// ln(1 + x), accurate for small |x|, too.
+double log1p(double x);
 
 /// e^x; 0 below −700, infinity above 709.
 double exp(double x);
 
-/// x^y for x > 0.
+/// x^y for x ≥ 0.
 double pow(double x, double y);
 
 /// Sine and cosine of 2π `turns`, for any |turns| < 2^52.

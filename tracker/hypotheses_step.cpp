@@ -297,7 +297,8 @@ class MultiScan {
 
   TrackTree begin(int member, double existence) {
     TrackTree target{.birth = state_.next_birth++, .id = 0, .branches = {}};
-    Branch& branch = target.branches.emplace_back(look_.begin(members_[member]));
+    target.branches.push_back({.track = look_.begin(members_[member])});
+    Branch& branch = target.branches.back();
     branch.track.existence = existence;
     branch.recent.front() = member + 1;
     return target;

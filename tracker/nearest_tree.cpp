@@ -13,7 +13,8 @@ constexpr int kLeaf = 16;
 
 double greater_eigenvalue(const Eigen::Matrix2d& m) {
   const double mean = 0.5 * (m(0, 0) + m(1, 1));
-  return mean + std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
+  const double half = 0.5 * (m(0, 0) - m(1, 1));
+  return mean + std::sqrt(half * half + m(0, 1) * m(0, 1));
 }
 
 bool is_nearer(const Gated& a, const Gated& b) {

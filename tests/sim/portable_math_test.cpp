@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ghtrack {
 namespace {
@@ -38,6 +39,12 @@ TEST(PortableMath, AgreesWithLibm) {
 // Derived: exact values.
 TEST(PortableMath, IsExactWhereItMatters) {
   EXPECT_EQ(portable::log(1.0), 0.0);
+  EXPECT_EQ(portable::log(0.0), -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(portable::log(-1.0)));
+  EXPECT_DOUBLE_EQ(portable::log(4e-320), std::log(4e-320));
+  EXPECT_EQ(portable::log1p(1e-17), 1e-17);
+  EXPECT_DOUBLE_EQ(portable::log1p(1e-9), std::log1p(1e-9));
+  EXPECT_DOUBLE_EQ(portable::log1p(-0.25), std::log1p(-0.25));
   EXPECT_EQ(portable::exp(0.0), 1.0);
   EXPECT_EQ(portable::exp(-1e9), 0.0);
   EXPECT_EQ(portable::sin_cos(0.0).sin, 0.0);

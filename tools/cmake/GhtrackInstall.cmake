@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/ghtrack")
 
 install(
-  TARGETS ghtrack_tracker ghtrack_detection
+  TARGETS ghtrack_tracker ghtrack_detection ghtrack_portable_math
   EXPORT ghtrack
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT tracker
   FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/ghtrack" COMPONENT tracker)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tools/report/chart.hpp"
+#include "tools/report/headings.hpp"
 
 namespace ghtrack::report {
 namespace {
@@ -78,6 +79,21 @@ struct WorldView {
   int height = Chart::kHeight;
 };
 
+/// Curves are shown whole, unless a filter has lost its way: then as far as half of the world beyond.
+void add_estimates(const ExampleRun& example, WorldView& view) {
+  constexpr double kBeyond = 0.5;
+  const WorldView world = view;
+  const double reach = kBeyond * std::max(world.x.size(), world.y.size());
+  for (const ExampleRun::Estimate& estimate : example.estimates) {
+    for (const auto& track : estimate.tracks) {
+      for (const ExampleRun::Point& point : track) {
+        view.x.add(std::clamp(point.x, world.x.low - reach, world.x.high + reach));
+        view.y.add(std::clamp(point.y, world.y.low - reach, world.y.high + reach));
+      }
+    }
+  }
+}
+
 WorldView view_of(const ExampleRun& example) {
   constexpr int kLowest = 320;
   constexpr int kTallest = 660;
@@ -94,6 +110,7 @@ WorldView view_of(const ExampleRun& example) {
     view.y.add(point.y);
   }
   if (view.x.is_empty() || view.y.is_empty()) return view;
+  add_estimates(example, view);
   const double margin = 0.04 * std::max({view.x.size(), view.y.size(), 1e-6});
   const bool flat = view.y.size() < kFlattest * view.x.size();
   view.x.grow_to(view.x.size() + 2.0 * margin);
@@ -258,7 +275,7 @@ std::optional<std::string> prediction_figure(const Comparison& comparison) {
     const ComparedCell& cell = comparison.cells[row->cell];
     chart.mark({*row->predicted, row->mean}, filter_class(row->filter),
                fmt::format("{}{}{}, {}, {}: predicted {:.3g} m, measured {:.3g} m", cell.scene,
-                           cell.sweep.empty() ? "" : ", ", cell.sweep, row->regime,
+                           cell.sweep.empty() ? "" : ", ", in_words(cell.sweep), row->regime,
                            comparison.filters[row->filter], *row->predicted, row->mean));
   }
   return chart.svg();

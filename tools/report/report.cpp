@@ -9,6 +9,7 @@
 
 #include "tools/html/template.hpp"
 #include "tools/report/figures.hpp"
+#include "tools/report/headings.hpp"
 #include "tools/report/report_page.hpp"
 #include "tools/report/tables.hpp"
 
@@ -93,7 +94,7 @@ Json cells_of(const Comparison& comparison, const ReportOptions& options) {
     const ComparedCell& cell = comparison.cells[i];
     cells.push_back({{"id", report::cell_id(i)},
                      {"scene", cell.scene},
-                     {"sweep", cell.sweep},
+                     {"sweep", report::in_words(cell.sweep)},
                      {"facts", facts_of(cell)},
                      {"videos", videos_of(options, i)},
                      {"legend", report::filters_of(comparison, i)},

@@ -71,6 +71,45 @@
       () => graph.updateOptions(appearance(data)));
   }
 
+  // A figure by itself, as it looks on paper: what the page's style says of it is written into it.
+  const drawn = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap",
+    "stroke-linejoin", "opacity", "font-size", "text-anchor"];
+  function standing(svg) {
+    const copy = svg.cloneNode(true);
+    const originals = [svg, ...svg.querySelectorAll("*")];
+    [copy, ...copy.querySelectorAll("*")].forEach((element, i) => {
+      const style = getComputedStyle(originals[i]);
+      for (const name of drawn) element.setAttribute(name, style.getPropertyValue(name));
+      element.removeAttribute("class");
+    });
+    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+    copy.setAttribute("font-family", "sans-serif");
+    const [, , width, height] = svg.getAttribute("viewBox").split(" ");
+    copy.setAttribute("width", width);
+    copy.setAttribute("height", height);
+    return new XMLSerializer().serializeToString(copy);
+  }
+  for (const figure of document.querySelectorAll("figure")) {
+    const svg = figure.querySelector("svg.chart"), heading = figure.querySelector("h3");
+    if (!svg || !heading) continue;
+    const section = figure.closest("section")?.querySelector("h2")?.textContent ?? "";
+    const link = document.createElement("a");
+    link.className = "download";
+    link.textContent = "SVG";
+    link.setAttribute("aria-label", `${heading.textContent} as SVG`);
+    link.download = `${section} ${heading.textContent}`.replace(/[^A-Za-z0-9.=-]+/g, "_") + ".svg";
+    link.href = "#";
+    const prepare = () => {
+      figure.classList.remove("enhanced");  // what is not shown has no style
+      link.href = "data:image/svg+xml," + encodeURIComponent(standing(svg));
+      figure.classList.toggle("enhanced", figure.querySelector(".live-chart") !== null);
+    };
+    link.addEventListener("pointerenter", prepare);
+    link.addEventListener("focus", prepare);
+    link.addEventListener("click", prepare);
+    heading.append(link);
+  }
+
   // Charts are made when they come near the window: a report may have a hundred.
   const near = new IntersectionObserver((entries) => {
     for (const entry of entries.filter((candidate) => candidate.isIntersecting)) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tools/report/figures.hpp"
+#include "tools/report/headings.hpp"
 
 namespace ghtrack::report {
 namespace {
@@ -116,7 +117,7 @@ nlohmann::json summary_tables(const Comparison& comparison) {
       if (line == lines.end()) continue;
       Json& rows = tables[filters];
       rows.push_back({{"scene", cell.scene},
-                      {"sweep", cell.sweep},
+                      {"sweep", in_words(cell.sweep)},
                       {"href", "#" + cell_id(i)},
                       {"regime", regime},
                       {"values", value_cells(filters, line->second)},

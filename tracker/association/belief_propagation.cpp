@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -34,15 +36,15 @@ class Messages {
       const double total = 1.0 + support(row);
       for (int k = table_.row_start[row]; k < table_.row_start[row + 1]; ++k) {
         result.pair[k] = weights_[k] * to_track_[k] / total;
-        result.log_sum -= std::log1p(to_detection_[k] * to_track_[k]);
+        result.log_sum -= portable::log1p(to_detection_[k] * to_track_[k]);
       }
       result.missed.push_back(1.0 / total);
-      result.log_sum += std::log(total);
+      result.log_sum += portable::log(total);
     }
     result.unused.reserve(heard_.size());
     for (const double heard : heard_) {
       result.unused.push_back(1.0 / (1.0 + heard));
-      result.log_sum += std::log1p(heard);
+      result.log_sum += portable::log1p(heard);
     }
     return result;
   }
@@ -98,7 +100,7 @@ class Enumeration {
     for (auto* values : {&result_.pair, &result_.missed, &result_.unused}) {
       for (double& value : *values) value /= total;
     }
-    result_.log_sum = std::log(total);
+    result_.log_sum = portable::log(total);
     return result_;
   }
 

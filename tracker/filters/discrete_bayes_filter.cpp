@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 
 using discrete_bayes::Belief;
@@ -25,7 +27,7 @@ double DiscreteBayesFilter::likelihood(std::size_t cell, double z) const {
   double error = z - static_cast<double>(cell);
   if (config_.ring) error = std::remainder(error, static_cast<double>(belief_.size()));
   const double sigmas = error / config_.noise;
-  return std::exp(-0.5 * sigmas * sigmas);
+  return portable::exp(-0.5 * sigmas * sigmas);
 }
 
 bool DiscreteBayesFilter::start(const Vector& z) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/portable_math.hpp"
 #include "tracker/filters/filter_design.hpp"
 
 namespace ghtrack {
@@ -126,7 +127,7 @@ std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d
   if (!(determinant > 0.0)) return std::nullopt;
   const Eigen::Vector2d r = z - estimate(filter).position;
   const double nis = r.dot(s.inverse() * r);
-  return -0.5 * (nis + std::log(determinant)) - std::log(2.0 * std::numbers::pi);
+  return -0.5 * (nis + portable::log(determinant)) - portable::log(2.0 * std::numbers::pi);
 }
 
 void coast(Filter& filter) {

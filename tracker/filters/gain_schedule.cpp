@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -18,7 +20,7 @@ Gains gains_of(const IndexLaw& law, const Gains& steady, double ratio) {
 }
 
 Gains gains_of(const MemoryLaw& law, const Gains& steady, double ratio) {
-  return fading_memory_gains(steady.order, std::pow(law.theta, ratio));
+  return fading_memory_gains(steady.order, portable::pow(law.theta, ratio));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -80,7 +82,7 @@ void ImmFilter::mix(double dt) {
   const auto m = static_cast<double>(modes_.size());
   if (modes_.size() == 1 || switching_ == 0.0) return;
   // The chain's transition matrix to the power dt / T: all its other eigenvalues are equal.
-  const double decay = std::pow(1.0 - switching_ * m / (m - 1.0), dt / nominal_interval());
+  const double decay = portable::pow(1.0 - switching_ * m / (m - 1.0), dt / nominal_interval());
   const double leave = (1.0 - decay) / m;
   const double stay = decay + leave;
 
@@ -159,12 +161,12 @@ bool ImmFilter::update(const Measurement& measured) {
       [&](const Mode& a, const Mode& b) { return log_of(a) < log_of(b); }));
   double sum = 0.0;
   for (Mode& mode : next) {
-    mode.weight *= std::exp(log_of(mode) - best);
+    mode.weight *= portable::exp(log_of(mode) - best);
     sum += mode.weight;
   }
   if (sum > 0.0 && std::isfinite(sum)) {
     for (Mode& mode : next) mode.weight /= sum;
-    log_likelihood_ = best + std::log(sum);
+    log_likelihood_ = best + portable::log(sum);
   } else {  // none has foreseen it
     for (std::size_t i = 0; i < next.size(); ++i) next[i].weight = modes_[i].weight;
     log_likelihood_ = best;

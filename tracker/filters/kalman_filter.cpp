@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/portable_math.hpp"
 #include "tracker/filters/gain_filter.hpp"
 
 namespace ghtrack {
@@ -197,7 +198,7 @@ bool KalmanFilter<Order, D>::update(const Vector& z, const Matrix& covariance) {
 
 template <int Order, int D>
 double KalmanFilter<Order, D>::log_likelihood() const {
-  return -0.5 * (nis_ + std::log(determinant_) + D * std::log(2.0 * std::numbers::pi));
+  return -0.5 * (nis_ + portable::log(determinant_) + D * portable::log(2.0 * std::numbers::pi));
 }
 
 template <int Order, int D>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -58,7 +60,7 @@ MotionCovariance PolynomialMotion::noise(const MotionState&, double dt) const {
 
 MotionState CoordinatedTurn::moved(const MotionState& x, double dt) const {
   const double angle = x[4] * dt;
-  const double s = std::sin(angle), c = std::cos(angle);
+  const auto [s, c] = portable::sin_cos(angle);
   const bool is_straight = std::abs(angle) < kStraight;
   const double along = is_straight ? dt : s / x[4];
   const double across = is_straight ? 0.5 * angle * dt : (1.0 - c) / x[4];

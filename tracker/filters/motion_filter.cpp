@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/portable_math.hpp"
 #include "tracker/filters/axis_covariance.hpp"
 #include "tracker/filters/carried.hpp"
 #include "tracker/filters/gain_filter.hpp"
@@ -225,7 +226,7 @@ bool MotionFilter::correct(const MeasuredVector& residual, const MeasuredCovaria
   if (!x.allFinite() || !p.allFinite()) return false;
 
   log_likelihood_ = -0.5 * whitened.squaredNorm() - root.diagonal().array().log().sum() -
-                    0.5 * static_cast<double>(residual.size()) * std::log(2.0 * std::numbers::pi);
+                    0.5 * static_cast<double>(residual.size()) * portable::log(2.0 * std::numbers::pi);
   prior_ = estimate_;
   x_ = x;
   p_ = p;

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -23,7 +25,7 @@ double log_likelihood(const SingleFilter& filter, const Eigen::Vector2d& z,
   const Eigen::Vector2d residual = z - estimate_of(filter).position;
   const Eigen::Matrix2d s = innovation_covariance_of(filter, covariance);
   const double nis = residual.dot(s.inverse() * residual);
-  return -0.5 * (nis + std::log(s.determinant()));
+  return -0.5 * (nis + portable::log(s.determinant()));
 }
 
 }  // namespace
@@ -180,7 +182,7 @@ std::vector<double> MultipleModelFilter::weights_after(const Vector& z,
   const double best = *std::max_element(weights.begin(), weights.end());
   double sum = 0.0;
   for (std::size_t i = 0; i < models_.size(); ++i) {
-    weights[i] = (staying(models_[i]) + arriving(models_[i])) * std::exp(weights[i] - best);
+    weights[i] = (staying(models_[i]) + arriving(models_[i])) * portable::exp(weights[i] - best);
     sum += weights[i];
   }
   const bool is_usable = sum > 0.0 && std::isfinite(sum);

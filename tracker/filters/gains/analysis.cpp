@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -134,8 +136,9 @@ Damping damping(const Gains& gains) {
 double damping_ratio(const Gains& gains) {
   const std::complex<double> slowest = poles(gains).front();
   if (slowest.imag() == 0.0 && slowest.real() >= 0.0) return 1.0;
-  const double decay = -std::log(std::abs(slowest));
-  return decay / std::hypot(decay, std::arg(slowest));
+  const double decay = -0.5 * portable::log(std::norm(slowest));
+  const double turn = portable::atan2(slowest.imag(), slowest.real());
+  return decay / std::sqrt(decay * decay + turn * turn);
 }
 
 VarianceReduction variance_reduction(const Gains& gains, double dt) {
@@ -187,8 +190,8 @@ Lag steady_lag(const Gains& gains, double dt, double next_derivative) {
 }
 
 double predicted_rmse(const Gains& gains, double sigma, double dt, double next_derivative) {
-  return std::hypot(sigma * std::sqrt(variance_reduction(gains, dt).x),
-                    steady_lag(gains, dt, next_derivative).x);
+  const double lag = steady_lag(gains, dt, next_derivative).x;
+  return std::sqrt(sigma * sigma * variance_reduction(gains, dt).x + lag * lag);
 }
 
 TransientEnergy transient_energy(const Gains& gains, double dt) {
@@ -208,7 +211,7 @@ TransientEnergy transient_energy(const Gains& gains, double dt) {
 
 double settling_updates(const Gains& gains, double fraction) {
   require_stable(gains);
-  return std::max(1.0, std::log(fraction) / std::log(std::abs(poles(gains).front())));
+  return std::max(1.0, portable::log(fraction) / portable::log(std::abs(poles(gains).front())));
 }
 
 }  // namespace ghtrack
