@@ -16,12 +16,18 @@ Models make_model(const Regime& regime) {
 
 }  // namespace
 
-Mover::Mover(const Target& target)
+Mover::Mover(const Target& target, const Environment& environment)
     : model_(make_model<Fold<Regime>::Models>(target.motion)),
       key_(key_of(target.name)),
       appears_(target.appears),
       disappears_(target.disappears.value_or(std::numeric_limits<double>::infinity())),
-      contact_(std::visit([](const auto& model) { return model.contact(); }, model_)) {}
+      contact_(std::visit([](const auto& model) { return model.contact(); }, model_)) {
+  std::visit(
+      [&]<class Model>(const Model& model) {
+        if constexpr (IsRoundModel<Model>) round_ = model.round(environment);
+      },
+      model_);
+}
 
 int Mover::objects() const {
   return std::visit([](const auto& model) { return model.objects(); }, model_);
@@ -31,7 +37,8 @@ int Mover::bodies() const {
   return std::visit([](const auto& model) { return model.bodies(); }, model_);
 }
 
-void Mover::advance(State& state, const Environment& environment, double from, double to) const {
+void Mover::advance(State& state, const Environment& environment, double from, double to,
+                    ImpactLog* log) const {
   if (to < appears_ || from >= disappears_) return;
   std::visit(
       [&]<class Model>(const Model& model) {
@@ -40,7 +47,7 @@ void Mover::advance(State& state, const Environment& environment, double from, d
           begin = std::max(from, appears_);
           state = StateOf<Model>{model.start(environment, begin)};
         }
-        model.advance(std::get<StateOf<Model>>(state).state, environment, begin, to);
+        model.advance(std::get<StateOf<Model>>(state).state, environment, begin, to, log);
       },
       model_);
 }
@@ -49,12 +56,12 @@ void Mover::release(State& state, const Environment& environment, const PlanarMo
                     double time) const {
   std::visit(
       [&]<class Model>(const Model& model) {
-        typename Model::State started = model.start(environment, time);
-        RigidBody body = model.body(started, 0);
-        body.position += carrier.position;
-        body.velocity += carrier.velocity;
-        model.adopt(started, body);
-        state = StateOf<Model>{std::move(started)};
+        state = StateOf<Model>{model.start(environment, time)};
+        if constexpr (IsRoundModel<Model>) {
+          FlightState* const flight = model.flight(std::get<StateOf<Model>>(state).state);
+          flight->position += carrier.position;
+          flight->velocity += carrier.velocity;
+        }
       },
       model_);
 }
@@ -76,10 +83,37 @@ RigidBody Mover::body(const State& state, int index) const {
       model_);
 }
 
-void Mover::adopt(State& state, const RigidBody& body) const {
-  std::visit([&]<class Model>(
-                 const Model& model) { model.adopt(std::get<StateOf<Model>>(state).state, body); },
-             model_);
+FlightState* Mover::flight(State& state) const {
+  return std::visit(
+      [&]<class Model>(const Model& model) -> FlightState* {
+        if constexpr (IsRoundModel<Model>) {
+          auto* const there = std::get_if<StateOf<Model>>(&state);
+          return there != nullptr ? model.flight(there->state) : nullptr;
+        } else {
+          return nullptr;
+        }
+      },
+      model_);
+}
+
+FlightRate Mover::rate(const FlightState& state, const Environment& environment,
+                       const SmoothInstant& now) const {
+  return std::visit(
+      [&]<class Model>(const Model& model) -> FlightRate {
+        if constexpr (IsRoundModel<Model>) return model.rate(state, environment, now);
+        return {};
+      },
+      model_);
+}
+
+double Mover::stiffness(const FlightState& state, const Environment& environment,
+                        const SmoothInstant& now) const {
+  return std::visit(
+      [&]<class Model>(const Model& model) {
+        if constexpr (IsRoundModel<Model>) return model.stiffness(state, environment, now);
+        return 0.0;
+      },
+      model_);
 }
 
 }  // namespace ghtrack

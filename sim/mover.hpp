@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/environment.hpp"
+#include "sim/regimes/free_flight.hpp"
 #include "sim/target.hpp"
 
 namespace ghtrack {
@@ -28,7 +29,7 @@ class Mover {
   /// Empty until the target appears.
   using State = Fold<Regime>::States;
 
-  explicit Mover(const Target& target);
+  Mover(const Target& target, const Environment& environment);
 
   std::uint64_t key() const { return key_; }
   const ContactProperties& contact() const { return contact_; }
@@ -43,13 +44,31 @@ class Mover {
   void release(State& state, const Environment& environment, const PlanarMotion& carrier,
                double time) const;
 
-  /// Integrates over [from, to] as far as the target is there; starts it if it appears.
-  void advance(State& state, const Environment& environment, double from, double to) const;
+  /// Integrates over [from, to] as far as the target is there; starts it if it appears. Impacts on
+  /// the surroundings are added to the log, if there is one.
+  void advance(State& state, const Environment& environment, double from, double to,
+               ImpactLog* log) const;
 
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                           int object) const;
   RigidBody body(const State& state, int index) const;
-  void adopt(State& state, const RigidBody& body) const;
+
+  /// What matters of a round body when it is hit.
+  /// @pre flight() is not null
+  const RoundBody& round() const { return round_; }
+
+  /// The state of a round body that gives way; null: it moves on regardless, or is not there.
+  FlightState* flight(State& state) const;
+  const FlightState* flight(const State& state) const {
+    return flight(const_cast<State&>(state));
+  }
+
+  /// What forces but those of contact do to it, and how fast they change.
+  /// @pre flight() is not null
+  FlightRate rate(const FlightState& state, const Environment& environment,
+                  const SmoothInstant& now) const;
+  double stiffness(const FlightState& state, const Environment& environment,
+                   const SmoothInstant& now) const;
 
  private:
   Fold<Regime>::Models model_;
@@ -57,6 +76,7 @@ class Mover {
   double appears_;
   double disappears_;
   ContactProperties contact_;
+  RoundBody round_{};
 };
 
 }  // namespace ghtrack

@@ -1,8 +1,10 @@
 #include "sim/neighbours.hpp"
 
+#include <box2d/b2_dynamic_tree.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -34,67 +36,111 @@ bool may_meet(const SweptBox& a, const SweptBox& b) {
          b.carrier != a.owner;
 }
 
-/// Rows across the plane, twice as high as a box is on average, so that together the boxes lie in at
-/// most two and a half times as many rows as there are boxes.
-class Rows {
- public:
-  explicit Rows(const std::vector<SweptBox>& boxes) {
-    double heights = 0.0;
-    for (const SweptBox& box : boxes) heights += box.high.y() - box.low.y();
-    const double height = 2.0 * heights / static_cast<double>(boxes.size());
-    if (std::isfinite(height) && height > 0.0) height_ = height;
-  }
+bool overlap(const SweptBox& a, const SweptBox& b) {
+  return a.low.x() <= b.high.x() && b.low.x() <= a.high.x() && a.low.y() <= b.high.y() &&
+         b.low.y() <= a.high.y();
+}
 
-  std::int64_t of(double y) const {
-    constexpr double kLast = 1e15;
-    const double row = std::floor(y / height_);
-    return std::isfinite(row) ? static_cast<std::int64_t>(std::clamp(row, -kLast, kLast)) : 0;
-  }
+/// In single precision, rounded outwards; far beyond every scene if it is not finite.
+float rounded(double x, float outwards) {
+  constexpr double kFarthest = 1e12;
+  const double clamped = std::isnan(x) ? 0.0 : std::clamp(x, -kFarthest, kFarthest);
+  return std::nextafter(static_cast<float>(clamped),
+                        outwards * std::numeric_limits<float>::infinity());
+}
 
- private:
-  double height_ = 1.0;  // [m]
-};
-
-/// Pairs of boxes that overlap and may meet, by sweep and prune along x in each row, so that the cost
-/// grows with the number of boxes and not with its square, however they are arranged.
-std::vector<std::pair<std::size_t, std::size_t>> overlapping_pairs(
-    const std::vector<SweptBox>& boxes) {
-  struct Entry {  // side by side in memory: most comparisons fail
-    std::int64_t row, lowest_row;
-    double left, right, bottom, top;
-    std::size_t box;
-  };
-  const Rows rows(boxes);
-  std::vector<Entry> entries;
-  entries.reserve(2 * boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Vec2& low = boxes[i].low;
-    const Vec2& high = boxes[i].high;
-    const std::int64_t lowest = rows.of(low.y());
-    const std::int64_t highest = rows.of(high.y());
-    for (std::int64_t row = lowest; row <= highest; ++row) {
-      entries.push_back({row, lowest, low.x(), high.x(), low.y(), high.y(), i});
-    }
-  }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.row != b.row ? a.row < b.row : a.left < b.left;
-  });
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (auto one = entries.begin(); one != entries.end(); ++one) {
-    for (auto other = one + 1;
-         other != entries.end() && other->row == one->row && other->left <= one->right; ++other) {
-      if (one->bottom > other->top || other->bottom > one->top) continue;
-      if (std::max(one->lowest_row, other->lowest_row) != one->row) continue;  // met there before
-      if (may_meet(boxes[one->box], boxes[other->box])) pairs.emplace_back(one->box, other->box);
-    }
-  }
-  return pairs;
+b2AABB box_of(const SweptBox& box) {
+  b2AABB result;
+  result.lowerBound = {rounded(box.low.x(), -1.0F), rounded(box.low.y(), -1.0F)};
+  result.upperBound = {rounded(box.high.x(), 1.0F), rounded(box.high.y(), 1.0F)};
+  return result;
 }
 
 }  // namespace
 
-std::vector<Cluster> find_clusters(const std::vector<SweptBox>& boxes) {
-  const auto pairs = overlapping_pairs(boxes);
+class Neighbourhood::Tree {
+ public:
+  /// Pairs of boxes, as indices, that overlap and may meet; ascending.
+  std::vector<std::pair<std::size_t, std::size_t>> pairs(const std::vector<SweptBox>& boxes) {
+    enter(boxes);
+    find_new_pairs();
+    std::vector<std::pair<std::size_t, std::size_t>> result;
+    for (const auto& [first, second] : near_) {
+      const std::ptrdiff_t one = bodies_[first].box;
+      const std::ptrdiff_t other = bodies_[second].box;
+      if (one < 0 || other < 0) continue;
+      const auto [a, b] = std::minmax({static_cast<std::size_t>(one), static_cast<std::size_t>(other)});
+      if (may_meet(boxes[a], boxes[b]) && overlap(boxes[a], boxes[b])) result.emplace_back(a, b);
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  // For b2DynamicTree::Query.
+  bool QueryCallback(std::int32_t proxy) {
+    const auto other = static_cast<std::size_t>(
+        reinterpret_cast<std::uintptr_t>(tree_.GetUserData(proxy)));
+    if (other == asking_ || (bodies_[other].moved && other < asking_)) return true;
+    near_.emplace_back(asking_, other);
+    return true;
+  }
+
+ private:
+  struct Body {
+    std::int32_t proxy = b2_nullNode;
+    std::ptrdiff_t box = -1;  // its index in this step; −1: it is not there
+    bool moved = false;       // out of its place in the tree
+    b2Vec2 centre = b2Vec2_zero;
+  };
+
+  void enter(const std::vector<SweptBox>& boxes) {
+    for (Body& body : bodies_) body.box = -1;
+    moved_.clear();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const std::size_t number = boxes[i].body;
+      if (number >= bodies_.size()) bodies_.resize(number + 1);
+      Body& body = bodies_[number];
+      body.box = static_cast<std::ptrdiff_t>(i);
+      const b2AABB box = box_of(boxes[i]);
+      const b2Vec2 centre = box.GetCenter();
+      if (body.proxy == b2_nullNode) {
+        body.proxy = tree_.CreateProxy(box, reinterpret_cast<void*>(number));
+      } else if (!tree_.MoveProxy(body.proxy, box, centre - body.centre)) {
+        body.centre = centre;
+        continue;
+      }
+      body.centre = centre;
+      body.moved = true;
+      moved_.push_back(number);
+    }
+  }
+
+  void find_new_pairs() {
+    if (moved_.empty()) return;
+    std::erase_if(near_, [&](const std::pair<std::size_t, std::size_t>& pair) {
+      return bodies_[pair.first].moved || bodies_[pair.second].moved;
+    });
+    for (const std::size_t number : moved_) {
+      asking_ = number;
+      tree_.Query(this, tree_.GetFatAABB(bodies_[number].proxy));
+    }
+    for (const std::size_t number : moved_) bodies_[number].moved = false;
+  }
+
+  b2DynamicTree tree_;
+  std::vector<Body> bodies_;
+  std::vector<std::size_t> moved_;
+  std::vector<std::pair<std::size_t, std::size_t>> near_;  // with their margins
+  std::size_t asking_ = 0;
+};
+
+Neighbourhood::Neighbourhood() : tree_(std::make_unique<Tree>()) {}
+Neighbourhood::~Neighbourhood() = default;
+Neighbourhood::Neighbourhood(Neighbourhood&&) noexcept = default;
+Neighbourhood& Neighbourhood::operator=(Neighbourhood&&) noexcept = default;
+
+std::vector<Cluster> Neighbourhood::clusters(const std::vector<SweptBox>& boxes) {
+  const auto pairs = tree_->pairs(boxes);
   if (pairs.empty()) return {};
 
   Sets sets(boxes.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "sim/truth.hpp"
@@ -9,6 +10,7 @@ namespace ghtrack {
 
 /// The box that a body sweeps during a step.
 struct SweptBox {
+  std::size_t body = 0;      // its number, the same in every step
   Vec2 low = Vec2::Zero();   // [m]
   Vec2 high = Vec2::Zero();  // [m]
   bool yields = true;        // whether the body gives way when it is hit
@@ -22,9 +24,24 @@ struct Cluster {
   std::vector<std::size_t> unyielding;  // what these may hit; can be part of several clusters
 };
 
-/// The clusters among these boxes, by sweep and prune along x in rows of y. Bodies far from every other are in
-/// none. Two bodies that are near the same unyielding one only are in different clusters, since
-/// they have no influence on each other.
-std::vector<Cluster> find_clusters(const std::vector<SweptBox>& boxes);
+/// Finds who is near whom, with Box2D's tree of boxes: a body enters it with a margin and again only
+/// when it has left that, so what moves steadily costs little, however bodies are arranged. The
+/// answers depend on the boxes alone.
+class Neighbourhood {
+ public:
+  Neighbourhood();
+  ~Neighbourhood();
+  Neighbourhood(Neighbourhood&&) noexcept;
+  Neighbourhood& operator=(Neighbourhood&&) noexcept;
+
+  /// The clusters among these boxes. Bodies far from every other are in none. Two bodies that are
+  /// near the same unyielding one only are in different clusters, since they have no influence on
+  /// each other.
+  std::vector<Cluster> clusters(const std::vector<SweptBox>& boxes);
+
+ private:
+  class Tree;
+  std::unique_ptr<Tree> tree_;
+};
 
 }  // namespace ghtrack

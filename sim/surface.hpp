@@ -2,21 +2,24 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/profile_curve.hpp"
 #include "sim/truth.hpp"
 
 namespace ghtrack {
 
-/// What is known of a bounce on a material, whatever hits it.
+/// What is known of bouncing and rolling on a material, whatever does so.
 struct Material {
   std::string_view name;
   std::optional<double> restitution;  // hard materials: that of the ball, which is measured on them
   std::optional<double> friction = std::nullopt;
+  std::optional<double> rolling = std::nullopt;
 };
 
 /// The materials that a scene can name; the first says nothing.
@@ -32,6 +35,7 @@ std::span<const SurfaceConfig> surfaces_of_all_materials() {
       surface.material = material.name;
       surface.restitution = material.restitution;
       surface.friction = material.friction;
+      surface.rolling = material.rolling;
     }
     return surfaces;
   }();
@@ -53,9 +57,14 @@ void describe_material(Visitor& v) {
            .meaning = "coefficient of sliding friction on it; left out: each ball's own",
            .minimum = 0.0,
            .maximum = 10.0});
+  v.field("rolling", &SurfaceConfig::rolling,
+          {.unit = "1",
+           .meaning = "coefficient of rolling resistance on it; left out: each ball's own",
+           .minimum = 0.0,
+           .maximum = 1.0});
 }
 
-/// The ground of a side view: level, or a profile of straight slopes.
+/// The ground of a side view: level, a profile of straight slopes, or a smooth one.
 struct Ground {
   static constexpr std::string_view about =
       "ground on which balls and balloons bounce: level, or with a profile";
@@ -63,11 +72,16 @@ struct Ground {
   double height = 0.0;
   std::optional<double> restitution = std::nullopt;
   std::optional<double> friction = std::nullopt;
+  std::optional<double> rolling = std::nullopt;
   std::string material = "plain";
   std::vector<Vec2> profile = {};
+  bool smooth = false;
 
   /// y of the ground below or above a point [m].
   double height_at(double x) const;
+
+  /// Points of a line that looks like its profile, from left to right [m]; none if it is level.
+  std::vector<Vec2> outline() const;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -84,6 +98,8 @@ struct Ground {
              .minimum = -1e5,
              .maximum = 1e5,
              .max_items = 1000});
+    v.field("smooth", &Ground::smooth,
+            {.meaning = "join the points of `profile` by a cubic spline, without edges"});
   }
 
   template <class Report>
@@ -106,6 +122,7 @@ struct Wall {
   Vec2 to = Vec2::Zero();
   std::optional<double> restitution = std::nullopt;
   std::optional<double> friction = std::nullopt;
+  std::optional<double> rolling = std::nullopt;
   std::string material = "plain";
 
   template <class Visitor>
@@ -133,6 +150,7 @@ struct SolidBox {
   double angle_deg = 0.0;
   std::optional<double> restitution = std::nullopt;
   std::optional<double> friction = std::nullopt;
+  std::optional<double> rolling = std::nullopt;
   std::string material = "plain";
 
   /// Counter-clockwise, beginning at the lower left of the unturned box [m].
@@ -159,16 +177,32 @@ struct Contact {
   Vec2 normal = Vec2::UnitY();  // from the surface's nearest point to the point
   double distance = 0.0;        // [m]; negative below the ground
   bool on_face = true;          // not beyond the end of a wall
+  /// Of the line of points at this distance, positive where the surface bulges towards the point:
+  /// 0 over a face, 1/distance around the end of a wall [1/m].
+  double curvature = 0.0;
 };
 
-/// What a round body can touch: the half-plane below a level, or a segment.
+/// Where a point stands to a disc or another point, `apart` from its centre.
+Contact contact_with_disc(const Vec2& apart, double radius);
+
+/// Where a point stands to an upright rectangle around the origin.
+Contact contact_with_rectangle(const Vec2& point, double length, double width);
+
+/// Where a point stands to a body of that outline, placed and turned.
+Contact contact_with_outline(const Vec2& point, const Vec2& position, double angle,
+                             const Outline& outline);
+
+/// What a round body can touch: the half-plane below a level, a segment, or a smooth curve with
+/// solid ground below it.
 struct Surface {
-  enum class Shape { kGround, kWall };
+  enum class Shape { kGround, kWall, kCurve };
   Shape shape = Shape::kGround;
   Vec2 from = Vec2::Zero();  // ground: any point of it
   Vec2 to = Vec2::Zero();
   std::optional<double> restitution = std::nullopt;
   std::optional<double> friction = std::nullopt;
+  std::optional<double> rolling = std::nullopt;
+  std::shared_ptr<const ProfileCurve> curve = nullptr;
 
   Contact contact(const Vec2& point) const;
 };

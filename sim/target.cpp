@@ -117,7 +117,7 @@ Spelled spell(const std::vector<Target>& targets) {
   return result;
 }
 
-/// Where a round target begins; trains are not round.
+/// Where a round target begins.
 struct Beginning {
   std::size_t target;
   double appears;
@@ -130,10 +130,10 @@ std::vector<Beginning> beginnings_of(const std::vector<Target>& targets) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (targets[i].released_by) continue;
     std::visit(
-        [&](const auto& motion) {
-          if constexpr (requires { motion.radius; }) {
-            beginnings.push_back({i, targets[i].appears, motion.position, motion.radius});
-          }
+        [&]<class R>(const R& motion) {
+          const Outline outline = typename R::Model(motion).contact().outline;
+          if (outline.shape == Outline::Shape::kBox) return;
+          beginnings.push_back({i, targets[i].appears, motion.position, 0.5 * outline.length});
         },
         targets[i].motion);
   }

@@ -50,13 +50,9 @@ struct Target {
     if (disappears && !(*disappears > appears)) {
       report("disappears", "a target must appear before it disappears");
     }
-    if (released_by && std::holds_alternative<Train>(motion)) {
-      report("released_by", "nothing can release a train");
-    }
-    const auto* const ball = std::get_if<ThrownBall>(&motion);
-    if (released_by && ball != nullptr && ball->juggle) {
-      report("released_by", "the juggler's hands throw this ball");
-    }
+    const std::string_view flaw =
+        std::visit([](const auto& regime) { return regime.unreleasable(); }, motion);
+    if (released_by && !flaw.empty()) report("released_by", flaw);
   }
 };
 

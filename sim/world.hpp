@@ -31,10 +31,18 @@ struct WorldConfig {
   std::vector<Target> targets;
 };
 
+/// A target that would have appeared inside something and was moved out of it.
+struct Displacement {
+  ObjectId object = 0;
+  double time = 0.0;      // [s]
+  double distance = 0.0;  // [m]
+};
+
 /// All targets in their surroundings: forces in, truth out.
 ///
 /// Each target is integrated in double precision to fourth order, bounces on ground and walls
-/// included; Box2D decides what happens where two of them can touch. The truth of a target depends
+/// included; Box2D finds who is near whom, and these move from one impact to the next, see
+/// encounter.hpp. The truth of a target depends
 /// on the scene's seed, its surroundings and what it touches: not on the instants at which it is
 /// sampled, nor on targets elsewhere.
 class World {
@@ -57,9 +65,12 @@ class World {
   /// What surrounds the targets.
   const Environment& environment() const;
 
-  /// How often so far targets passed through whatever they met during a step, because one of them
-  /// was too fast for collisions to be computed: above 450 m per step, 9 km/s at the lowest rate.
+  /// How often so far targets passed through whatever they met during a step, because they had too
+  /// many impacts within it.
   std::int64_t missed_collisions() const;
+
+  /// The targets that have appeared inside something so far, and were moved out of it.
+  const std::vector<Displacement>& displacements() const;
 
  private:
   struct Scenery;

@@ -31,7 +31,6 @@ std::span<const Balloon> Balloon::presets() {
 
 BalloonModel::BalloonModel(const Balloon& balloon)
     : balloon_(balloon),
-      round_{balloon.radius, 0.667, balloon.restitution, balloon.friction},
       volume_(4.0 / 3.0 * portable::kPi * balloon.radius * balloon.radius * balloon.radius),
       mass_(balloon.envelope_mass + balloon.gas_density * volume_) {}
 
@@ -64,21 +63,15 @@ FlightRate BalloonModel::rate(const FlightState& state, const Environment& envir
   return rate;
 }
 
-void BalloonModel::advance(State& state, const Environment& environment, double from,
-                           double to) const {
-  const double drag = drag_per_speed(environment);
-  fly_in_wind(
-      state, from, to, round_, environment,
-      [&](const FlightState& s, const SmoothInstant& now) { return rate(s, environment, now); },
-      [&](const FlightState& s, const SmoothInstant& now) {
-        const Vec2 air = s.velocity - environment.wind().at(s.position, now.time);
-        return 2.0 * drag * air.norm();
-      });
+double BalloonModel::stiffness(const FlightState& state, const Environment& environment,
+                               const SmoothInstant& now) const {
+  const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
+  return 2.0 * drag_per_speed(environment) * air.norm();
 }
 
 PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment,
                                       double time, int) const {
-  return flight_kinematics(state, rate(state, environment, {.time = time}), round_,
+  return flight_kinematics(state, rate(state, environment, {.time = time}), round(environment),
                            environment.surfaces());
 }
 
@@ -86,12 +79,16 @@ RigidBody BalloonModel::body(const State& state, int) const { return body_in_fli
 
 ContactProperties BalloonModel::contact() const {
   return {{Outline::Shape::kBalloon, 2.0 * balloon_.radius, 2.0 * balloon_.radius},
-          mass_,
-          round_.inertia,
           balloon_.restitution,
           balloon_.friction};
 }
 
-void BalloonModel::adopt(State& state, const RigidBody& body) const { adopt_flight(state, body); }
+RoundBody BalloonModel::round(const Environment& environment) const {
+  // A push moves the air around the balloon too; a thin shell turns without it.
+  constexpr double kThinShell = 0.667;
+  const double moved = mass_ + balloon_.added_mass * environment.air().density * volume_;
+  return {balloon_.radius,   kThinShell * mass_ / moved, balloon_.restitution,
+          balloon_.friction, balloon_.rolling,           moved};
+}
 
 }  // namespace ghtrack

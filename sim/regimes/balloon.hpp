@@ -33,11 +33,13 @@ struct Balloon {
   bool fluid_acceleration = false;
   double restitution = 0.6;
   double friction = 0.4;
+  double rolling = 0.0;
 
   static std::span<const Balloon> presets();
 
   void shift(const Vec2& by) { position += by; }
   void hasten(const Vec2& by) { velocity += by; }
+  std::string_view unreleasable() const { return ""; }
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -91,22 +93,27 @@ class BalloonModel {
   explicit BalloonModel(const Balloon& balloon);
 
   State start(const Environment& environment, double time) const;
-  void advance(State& state, const Environment& environment, double from, double to) const;
+  void advance(State& state, const Environment& environment, double from, double to,
+               ImpactLog* log) const {
+    fly_in_wind(*this, state, environment, from, to, log);
+  }
   int objects() const { return 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                           int object) const;
   int bodies() const { return 1; }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
-  void adopt(State& state, const RigidBody& body) const;
-
- private:
+  RoundBody round(const Environment& environment) const;
+  FlightState* flight(State& state) const { return &state; }
   FlightRate rate(const FlightState& state, const Environment& environment,
                   const SmoothInstant& now) const;
+  double stiffness(const FlightState& state, const Environment& environment,
+                   const SmoothInstant& now) const;
+
+ private:
   double drag_per_speed(const Environment& environment) const;  // k of −k |u| u [1/m]
 
   Balloon balloon_;
-  RoundBody round_;
   double volume_;  // [m³]
   double mass_;    // envelope and gas [kg]
 };

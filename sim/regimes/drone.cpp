@@ -56,7 +56,6 @@ void Drone::shift(const Vec2& by) {
 
 DroneModel::DroneModel(const Drone& drone)
     : drone_(drone),
-      round_{drone.radius, kInertia, drone.restitution, drone.friction},
       max_tilt_(drone.max_tilt_deg * portable::kPi / 180.0) {
   const portable::SinCos tilt = portable::sin_cos(max_tilt_);
   tan_max_tilt_ = tilt.sin / tilt.cos;
@@ -91,13 +90,13 @@ Vec2 DroneModel::wanted_velocity(const FlightState& state, double time) const {
 }
 
 FlightRate DroneModel::rate(const FlightState& state, const Environment& environment,
-                            double time) const {
-  const Vec2 air = state.velocity - environment.wind().at(state.position, time);
+                            const SmoothInstant& now) const {
+  const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
   const double k = 0.5 * environment.air().density * drone_.drag_area / drone_.mass;
   const Vec2 drag = -k * air.norm() * air;
   const Vec2 wanted =
       shortened_to(drone_.acceleration,
-                   (wanted_velocity(state, time) - state.velocity) / kVelocityTime) -
+                   (wanted_velocity(state, now.time) - state.velocity) / kVelocityTime) -
       drag - environment.gravity();
 
   const double gravity = -environment.gravity().y();
@@ -115,41 +114,41 @@ FlightRate DroneModel::rate(const FlightState& state, const Environment& environ
               2.0 * drone_.attitude_damping * drone_.attitude_rate * state.spin};
 }
 
-void DroneModel::advance(State& state, const Environment& environment, double from,
-                         double to) const {
+double DroneModel::stiffness(const FlightState& state, const Environment& environment,
+                             const SmoothInstant& now) const {
+  const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
   const double drag = environment.air().density * drone_.drag_area / drone_.mass;
+  return drag * air.norm() + 1.0 / kVelocityTime +
+         drone_.attitude_rate * (1.0 + drone_.attitude_damping);
+}
+
+void DroneModel::advance(State& state, const Environment& environment, double from, double to,
+                         ImpactLog* log) const {
   while (from < to) {
     const auto next = first_order_after(from);
     const double order_ends = next != drone_.plan.end() ? std::min(to, next->at) : to;
-    fly_in_wind(
-        state, from, order_ends, round_, environment,
-        [&](const FlightState& s, const SmoothInstant& now) {
-          return rate(s, environment, now.time);
-        },
-        [&](const FlightState& s, const SmoothInstant& now) {
-          const Vec2 air = s.velocity - environment.wind().at(s.position, now.time);
-          return drag * air.norm() + 1.0 / kVelocityTime +
-                 drone_.attitude_rate * (1.0 + drone_.attitude_damping);
-        });
+    fly_in_wind(*this, state, environment, from, order_ends, log);
     from = order_ends;
   }
 }
 
 PlanarMotion DroneModel::kinematics(const State& state, const Environment& environment, double time,
                                     int) const {
-  return flight_kinematics(state, rate(state, environment, time), round_, environment.surfaces());
+  return flight_kinematics(state, rate(state, environment, {.time = time}), round(environment),
+                           environment.surfaces());
 }
 
 RigidBody DroneModel::body(const State& state, int) const { return body_in_flight(state); }
 
 ContactProperties DroneModel::contact() const {
   return {{Outline::Shape::kDrone, 2.0 * drone_.radius, 2.0 * drone_.radius},
-          drone_.mass,
-          round_.inertia,
           drone_.restitution,
           drone_.friction};
 }
 
-void DroneModel::adopt(State& state, const RigidBody& body) const { adopt_flight(state, body); }
+RoundBody DroneModel::round(const Environment&) const {
+  return {drone_.radius,   kInertia,       drone_.restitution,
+          drone_.friction, drone_.rolling, drone_.mass};
+}
 
 }  // namespace ghtrack

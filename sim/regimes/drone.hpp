@@ -88,11 +88,13 @@ struct Drone {
   double attitude_damping = 0.8;
   double restitution = 0.2;
   double friction = 0.5;
+  double rolling = 0.0;
 
   static std::span<const Drone> presets();
 
   void shift(const Vec2& by);
   void hasten(const Vec2& by) { velocity += by; }
+  std::string_view unreleasable() const { return ""; }
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -165,22 +167,26 @@ class DroneModel {
   explicit DroneModel(const Drone& drone);
 
   State start(const Environment& environment, double time) const;
-  void advance(State& state, const Environment& environment, double from, double to) const;
+  void advance(State& state, const Environment& environment, double from, double to,
+               ImpactLog* log) const;
   int objects() const { return 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                           int object) const;
   int bodies() const { return 1; }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
-  void adopt(State& state, const RigidBody& body) const;
+  RoundBody round(const Environment& environment) const;
+  FlightState* flight(State& state) const { return &state; }
+  FlightRate rate(const FlightState& state, const Environment& environment,
+                  const SmoothInstant& now) const;
+  double stiffness(const FlightState& state, const Environment& environment,
+                   const SmoothInstant& now) const;
 
  private:
   Vec2 wanted_velocity(const FlightState& state, double time) const;
-  FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
   std::vector<FlightOrder>::const_iterator first_order_after(double time) const;
 
   Drone drone_;
-  RoundBody round_;
   double tan_max_tilt_;
   double max_tilt_;  // [rad]
 };

@@ -1,89 +1,283 @@
 #include "sim/regimes/free_flight.hpp"
 
+#include "sim/contact_forces.hpp"
+
 namespace ghtrack {
 namespace {
 
-constexpr double kRestSpeed = 0.01;   // slower bounces are not worth it [m/s]
-constexpr double kRestHeight = 5e-6;  // nor are lower ones, under forces far above gravity [m]
+constexpr double kRestHeight = 5e-6;  // lower bounces are not worth it, nor under large forces [m]
 constexpr double kSlipDecay = 0.02;   // time in which the last slip of a rolling body dies out [s]
-
-Vec2 tangent_to(const Vec2& normal) { return {normal.y(), -normal.x()}; }
+constexpr double kLeaving = 1e-9;     // faster than this a body leaves its support [m/s]
+constexpr double kAtRest = 1e-7;      // slower than this, and held, it rests [m/s]
+constexpr double kSameNormal = 1e-9;  // 1 − cosine between normals that are one
 
 /// Speed of the rim over the surface at the point of contact.
 double slip(const FlightState& state, const RoundBody& body, const Vec2& tangent) {
   return state.velocity.dot(tangent) + state.spin * body.radius;
 }
 
-double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
+const Surface& surface_at(const std::vector<Surface>& surfaces, int index) {
+  return surfaces[static_cast<std::size_t>(index)];
+}
+
+/// Part of the acceleration that a curved surface needs to keep a body on it.
+double turning_acceleration(const FlightState& state, const Contact& contact) {
+  const double along = state.velocity.dot(tangent_to(contact.normal));
+  return contact.curvature * along * along;
+}
+
+Touch touch_of(const FlightState& state, const RoundBody& body, const Surface& surface,
+               double turning) {
+  const Contact contact = surface.contact(state.position);
+  Touch touch;
+  touch.normal = contact.normal;
+  touch.friction = surface.friction.value_or(body.friction);
+  touch.rolling = surface.rolling.value_or(body.rolling);
+  touch.direction = turning;
+  touch.normal_offset = turning_acceleration(state, contact);
+  const double slipping = slip(state, body, tangent_to(contact.normal));
+  touch.slip_offset = slipping / kSlipDecay;
+  touch.slip = noticeable(slipping);
+  return touch;
+}
+
+/// Rates and forces on two surfaces at once.
+struct Cornered {
+  FlightRate rate;
+  std::vector<Touch> touches;
+};
+
+Cornered corner(const FlightState& state, const FlightRate& free, const RoundBody& body,
+                const std::vector<Surface>& surfaces, double turning) {
+  std::vector<Pushed> one{{free.acceleration, free.spin, 1.0,
+                           1.0 / (body.inertia * body.radius * body.radius), body.radius}};
+  Cornered result;
+  for (const int index : {state.support, state.second_support}) {
+    result.touches.push_back(touch_of(state, body, surface_at(surfaces, index), turning));
+  }
+  solve_contacts(one, result.touches);
+  result.rate = {one[0].rate, one[0].spin_rate};
+  // Held from two sides it goes nowhere, not even by a rounding error.
+  const bool held = std::all_of(result.touches.begin(), result.touches.end(),
+                                [](const Touch& touch) { return touch.push > 0.0; });
+  if (held && state.velocity == Vec2::Zero()) result.rate.acceleration.setZero();
+  if (held && turning == 0.0 && std::abs(result.rate.spin) * body.radius < 1e-9) {
+    result.rate.spin = 0.0;
+  }
+  return result;
+}
+
+void forget_second(FlightState& state) { state.second_support = -1; }
+
+void forget_first(FlightState& state) {
+  state.support = state.second_support;
+  state.second_support = -1;
+}
+
+void add_support(FlightState& state, int surface, const std::vector<Surface>& surfaces) {
+  if (surface == state.support || surface == state.second_support) return;
+  const auto normal = [&](int index) {
+    return surface_at(surfaces, index).contact(state.position).normal;
+  };
+  if (state.support < 0 || normal(state.support).dot(normal(surface)) > 1.0 - kSameNormal) {
+    state.support = surface;
+  } else {
+    state.second_support = surface;
+  }
+}
+
+/// Takes out of a velocity what would lead into the supports.
+void keep_out(FlightState& state, const std::vector<Surface>& surfaces) {
+  const Vec2 first = surface_at(surfaces, state.support).contact(state.position).normal;
+  const auto along = [](const Vec2& v, const Vec2& normal) {
+    const Vec2 tangent = tangent_to(normal);
+    return Vec2(v.dot(tangent) * tangent);
+  };
+  if (state.second_support < 0) {
+    state.velocity = along(state.velocity, first);
+    return;
+  }
+  const Vec2 second = surface_at(surfaces, state.second_support).contact(state.position).normal;
+  const Vec2 on_first = state.velocity.dot(first) < 0.0 ? along(state.velocity, first) : state.velocity;
+  if (on_first.dot(second) >= 0.0) {
+    state.velocity = on_first;
+    return;
+  }
+  const Vec2 on_second = along(state.velocity, second);
+  state.velocity = on_second.dot(first) >= 0.0 ? on_second : Vec2::Zero();
+}
 
 }  // namespace
 
 FlightRate supported_rate(const FlightState& state, const FlightRate& free, const RoundBody& body,
-                          const Surface& surface) {
-  const Vec2 normal = surface.contact(state.position).normal;
-  const Vec2 tangent = tangent_to(normal);
-  const double pressure = std::max(0.0, -free.acceleration.dot(normal));
-  const double along = free.acceleration.dot(tangent);
-  const double rolling =
-      -(along + free.spin * body.radius + slip(state, body, tangent) / kSlipDecay) /
-      (1.0 + 1.0 / body.inertia);
-  const double limit = surface.friction.value_or(body.friction) * pressure;
-  const double friction = std::clamp(rolling, -limit, limit);
-  return {(along + friction) * tangent, free.spin + friction / (body.inertia * body.radius)};
-}
-
-bool supports(const Surface& surface, const FlightState& state, const FlightRate& free) {
+                          const std::vector<Surface>& surfaces, double turning) {
+  if (state.second_support >= 0) return corner(state, free, body, surfaces, turning).rate;
+  const Surface& surface = surface_at(surfaces, state.support);
   const Contact contact = surface.contact(state.position);
-  return contact.on_face && free.acceleration.dot(contact.normal) <= 0.0;
+  const Vec2& normal = contact.normal;
+  const Vec2 tangent = tangent_to(normal);
+  const double inwards = turning_acceleration(state, contact);
+  const double pressure = std::max(0.0, -free.acceleration.dot(normal) - inwards);
+  const double along = free.acceleration.dot(tangent);
+  const double rim = slip(state, body, tangent);
+  const double slipping = rim / kSlipDecay;
+  const double grip = surface.friction.value_or(body.friction) * pressure;
+  const double rolling = surface.rolling.value_or(body.rolling);
+  const double couple = rolling * pressure / (body.inertia * body.radius);  // [rad/s²]
+  double spin = free.spin;
+  if (rolling > 0.0 && turning == 0.0) {
+    const double held = dissipative(-(along + slipping), grip, noticeable(rim));
+    const double torque = free.spin + held / (body.inertia * body.radius);
+    if (std::abs(torque) <= couple) return {(along + held) * tangent - inwards * normal, 0.0};
+    spin -= sign(torque) * couple;
+  } else if (rolling > 0.0) {
+    spin -= turning * couple;
+  }
+  const double friction =
+      dissipative(-(along + spin * body.radius + slipping) / (1.0 + 1.0 / body.inertia), grip,
+                  noticeable(rim));
+  return {(along + friction) * tangent - inwards * normal,
+          spin + friction / (body.inertia * body.radius)};
 }
 
-void bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
-            const std::vector<Surface>& surfaces, std::size_t surface) {
-  const Surface& struck = surfaces[surface];
-  const Contact contact = struck.contact(state.position);
-  state.position += std::max(0.0, body.radius - contact.distance) * contact.normal;
-  const double approach = -state.velocity.dot(contact.normal);
-  if (approach <= 0.0) return;
-
-  const double restitution = struck.restitution.value_or(body.restitution);
-  const double friction = struck.friction.value_or(body.friction);
-  const Vec2 tangent = tangent_to(contact.normal);
-  const double slipping = slip(state, body, tangent);
-  const double normal_impulse = (1.0 + restitution) * approach;
-  const double impulse =
-      -sign(slipping) *
-      std::min(friction * normal_impulse, std::abs(slipping) / (1.0 + 1.0 / body.inertia));
-  state.velocity += normal_impulse * contact.normal + impulse * tangent;
-  state.spin += impulse / (body.inertia * body.radius);
-
-  const double departure = restitution * approach;
-  const double pressing = std::max(0.0, -free.acceleration.dot(contact.normal));
-  const double rest_speed = std::max(kRestSpeed, std::sqrt(2.0 * kRestHeight * pressing));
-  if (departure >= rest_speed) return;
-  if (contact.on_face) {
-    state.velocity = state.velocity.dot(tangent) * tangent;
-    state.support = static_cast<int>(surface);
-  } else {
-    state.velocity += (rest_speed - departure) * contact.normal;  // slides off an end
+void find_supports(FlightState& state, const RoundBody& body,
+                   const std::vector<Surface>& surfaces) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Contact contact = surfaces[i].contact(state.position);
+    if (std::abs(contact.distance - body.radius) > kTouching) continue;
+    if (std::abs(state.velocity.dot(contact.normal)) > kLeaving) continue;
+    add_support(state, static_cast<int>(i), surfaces);
   }
+}
+
+void leave_supports(FlightState& state, const FlightRate& free, const RoundBody& body,
+                    const std::vector<Surface>& surfaces) {
+  const auto left = [&](int index) {
+    const Contact contact = surface_at(surfaces, index).contact(state.position);
+    return state.velocity.dot(contact.normal) > kLeaving;
+  };
+  const auto draws_away = [&](int index) {
+    const Contact contact = surface_at(surfaces, index).contact(state.position);
+    return free.acceleration.dot(contact.normal) + turning_acceleration(state, contact) > 0.0;
+  };
+  if (state.second_support >= 0 && left(state.second_support)) forget_second(state);
+  if (state.support >= 0 && left(state.support)) forget_first(state);
+  if (state.second_support >= 0) {
+    const Cornered cornered = corner(state, free, body, surfaces, sign(state.spin));
+    const bool first_presses = cornered.touches[0].push > 0.0;
+    const bool second_presses = cornered.touches[1].push > 0.0;
+    if (!second_presses) forget_second(state);
+    if (!first_presses) forget_first(state);
+  } else if (state.support >= 0 && draws_away(state.support)) {
+    forget_first(state);
+  }
+}
+
+void settle_on_supports(FlightState& state, const RoundBody& body,
+                        const std::vector<Surface>& surfaces, double turning) {
+  for (const int index : {state.support, state.second_support}) {
+    if (index < 0) continue;
+    const Surface& surface = surface_at(surfaces, index);
+    const Contact contact = surface.contact(state.position);
+    if (surface.rolling.value_or(body.rolling) > 0.0 && turning * state.spin < 0.0) {
+      state.spin = 0.0;
+    }
+    if (contact.curvature == 0.0 && state.second_support < 0) continue;
+    state.position += (body.radius - contact.distance) * contact.normal;
+    keep_out(state, surfaces);
+  }
+}
+
+bool is_nearly_at_rest(const FlightState& state, const RoundBody& body) {
+  return std::abs(state.spin) * body.radius < kAtRest && state.velocity.norm() < kAtRest;
+}
+
+void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
+          const std::vector<Surface>& surfaces) {
+  FlightState still = state;
+  still.velocity.setZero();
+  still.spin = 0.0;
+  const FlightRate rate = supported_rate(still, free, body, surfaces, 0.0);
+  const double most = 1e-9;  // [m/s²]
+  if (rate.acceleration.norm() < most && std::abs(rate.spin) * body.radius < most) state = still;
+}
+
+bool changes_on_supports(const FlightState& before, const FlightState& after,
+                         const RoundBody& body, const std::vector<Surface>& surfaces) {
+  for (const int index : {before.support, before.second_support}) {
+    if (index < 0) continue;
+    const Surface& surface = surface_at(surfaces, index);
+    if (surface.contact(before.position).on_face != surface.contact(after.position).on_face) {
+      return true;
+    }
+    if (surface.rolling.value_or(body.rolling) > 0.0 && before.spin * after.spin < 0.0) return true;
+  }
+  return false;
+}
+
+Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
+            const std::vector<Surface>& surfaces, std::size_t surface) {
+  Vec2 impulse = Vec2::Zero();
+  constexpr int kMostEchoes = 50;  // to and fro between two supports
+  for (int echo = 0; echo < kMostEchoes; ++echo) {
+    const Surface& struck = surfaces[surface];
+    const Contact contact = struck.contact(state.position);
+    state.position += std::max(0.0, body.radius - contact.distance) * contact.normal;
+    const double approach = -state.velocity.dot(contact.normal);
+    if (approach > 0.0) {
+      const double restitution = struck.restitution.value_or(body.restitution);
+      const double friction = struck.friction.value_or(body.friction);
+      const Vec2 tangent = tangent_to(contact.normal);
+      const double slipping = slip(state, body, tangent);
+      const double normal_impulse = (1.0 + restitution) * approach;
+      const double grip =
+          -sign(slipping) *
+          std::min(friction * normal_impulse, std::abs(slipping) / (1.0 + 1.0 / body.inertia));
+      const Vec2 change = normal_impulse * contact.normal + grip * tangent;
+      state.velocity += change;
+      state.spin += grip / (body.inertia * body.radius);
+      impulse += body.mass * change;
+
+      const double departure = restitution * approach;
+      const double pressing =
+          -free.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
+      const double rest_speed =
+          std::max(kLeastBounce, std::sqrt(2.0 * kRestHeight * std::max(0.0, pressing)));
+      if (departure < rest_speed && pressing > 0.0) {
+        add_support(state, static_cast<int>(surface), surfaces);
+        keep_out(state, surfaces);
+      }
+    }
+    // A support that is struck from the side answers in turn.
+    const auto runs_into = [&](int index) {
+      return index >= 0 && index != static_cast<int>(surface) &&
+             state.velocity.dot(surface_at(surfaces, index).contact(state.position).normal) <
+                 -kLeaving;
+    };
+    if (runs_into(state.support)) {
+      surface = static_cast<std::size_t>(state.support);
+    } else if (runs_into(state.second_support)) {
+      surface = static_cast<std::size_t>(state.second_support);
+    } else {
+      return impulse;
+    }
+  }
+  keep_out(state, surfaces);
+  return impulse;
 }
 
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
                                const RoundBody& body, const std::vector<Surface>& surfaces) {
-  FlightRate rate = free;
-  if (state.support >= 0) {
-    const Surface& surface = surfaces[static_cast<std::size_t>(state.support)];
-    if (supports(surface, state, free)) rate = supported_rate(state, free, body, surface);
-  }
-  return {state.position, state.velocity, rate.acceleration};
+  if (state.leans) return {state.position, state.velocity, state.leaning_acceleration};
+  FlightState now = state;
+  if (now.support >= 0) leave_supports(now, free, body, surfaces);
+  if (now.support < 0) return {now.position, now.velocity, free.acceleration};
+  const FlightRate rate = supported_rate(now, free, body, surfaces, sign(now.spin));
+  return {now.position, now.velocity, rate.acceleration};
 }
 
 RigidBody body_in_flight(const FlightState& state) {
   return {state.position, state.velocity, state.angle, state.spin};
-}
-
-void adopt_flight(FlightState& state, const RigidBody& body) {
-  state = {body.position, body.velocity, body.angle, body.spin, -1};
 }
 
 Approach first_approach(const FlightState& before, const FlightState& after, double step,
@@ -96,25 +290,65 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
   const int wall_samples =
       static_cast<int>(std::clamp(std::ceil(4.0 * reach / body.radius), 4.0, 20000.0));
   constexpr int kGroundSamples = 4;  // nobody gets to the other side of the ground
+  const auto position_at = [&](double f) {
+    const double g = 1.0 - f;
+    return Vec2(g * g * (1.0 + 2.0 * f) * before.position +
+                f * f * (1.0 + 2.0 * g) * after.position +
+                step * f * g * (g * before.velocity - f * after.velocity));
+  };
+  const auto closing = [&](double f, const Contact& contact) {
+    return Vec2((1.0 - f) * before.velocity + f * after.velocity).dot(contact.normal);
+  };
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    if (static_cast<int>(i) == before.support) continue;
+    if (static_cast<int>(i) == before.support || static_cast<int>(i) == before.second_support) {
+      continue;
+    }
     if (surfaces[i].contact(before.position).distance - body.radius > reach) continue;
-    const int samples =
-        surfaces[i].shape == Surface::Shape::kGround ? kGroundSamples : wall_samples;
+    // The end of a wall that is also the end of a support is touched already.
+    const auto is_touched_already = [&](const Contact& contact, const Vec2& position) {
+      if (contact.on_face) return false;
+      for (const int index : {before.support, before.second_support}) {
+        if (index < 0) continue;
+        const Contact support = surfaces[static_cast<std::size_t>(index)].contact(position);
+        if ((contact.distance * contact.normal - support.distance * support.normal).norm() <
+            kTouching) {
+          return true;
+        }
+      }
+      return false;
+    };
+    const bool is_wall = surfaces[i].shape == Surface::Shape::kWall;
+    const int samples = is_wall ? wall_samples : kGroundSamples;
     double clear = 0.0;
+    bool closes = false;  // at `clear`
     for (int k = 0; k <= samples; ++k) {
       const double f = static_cast<double>(k) / samples;
       if (f >= first.touching && first.surface >= 0) break;
-      const double g = 1.0 - f;
-      const Vec2 position = g * g * (1.0 + 2.0 * f) * before.position +
-                            f * f * (1.0 + 2.0 * g) * after.position +
-                            step * f * g * (g * before.velocity - f * after.velocity);
-      const Vec2 velocity = g * before.velocity + f * after.velocity;
+      const Vec2 position = position_at(f);
       const Contact contact = surfaces[i].contact(position);
-      if (contact.distance < body.radius && velocity.dot(contact.normal) < 0.0) {
+      const double parting = closing(f, contact);
+      if (contact.distance < body.radius && parting < 0.0 &&
+          !is_touched_already(contact, position)) {
         first = {static_cast<int>(i), clear, f};
         break;
       }
+      // Between two samples it may have grazed an end.
+      if (closes && parting >= 0.0 && is_wall &&
+          contact.distance - body.radius < reach / samples) {
+        double towards = clear;
+        double nearest = f;
+        while (nearest - towards > 1e-12) {
+          const double middle = 0.5 * (towards + nearest);
+          const Contact there = surfaces[i].contact(position_at(middle));
+          (closing(middle, there) < 0.0 ? towards : nearest) = middle;
+        }
+        const Contact there = surfaces[i].contact(position_at(towards));
+        if (there.distance < body.radius && !is_touched_already(there, position_at(towards))) {
+          first = {static_cast<int>(i), clear, towards};
+          break;
+        }
+      }
+      closes = parting < 0.0;
       clear = f;
     }
   }

@@ -13,13 +13,16 @@
 
 namespace ghtrack {
 
-/// State of a round body in the air or on a surface.
+/// State of a round body in the air or on one or two surfaces.
 struct FlightState {
   Vec2 position = Vec2::Zero();  // of the centre [m]
   Vec2 velocity = Vec2::Zero();  // [m/s]
   double angle = 0.0;            // [rad]
   double spin = 0.0;             // [rad/s]
   int support = -1;              // the surface it rests or rolls on; −1: none
+  int second_support = -1;       // another one, as in a corner
+  bool leans = false;            // on other bodies, which accelerate it together with all else by
+  Vec2 leaning_acceleration = Vec2::Zero();  // [m/s²]
 };
 
 /// What the forces of flight make of a state.
@@ -31,34 +34,87 @@ struct FlightRate {
 /// What matters of a round body when it touches something.
 struct RoundBody {
   double radius;       // [m]
-  double inertia;      // moment of inertia / (mass × radius²)
+  double inertia;      // moment of inertia / (mass × radius²), for the mass below
   double restitution;  // where the surface names none
   double friction;     // where the surface names none
+  double rolling;      // the same: coefficient of rolling resistance
+  double mass;         // that answers to a push: air that is moved along counts [kg]
 };
 
-/// The rates of a body that a surface supports: the normal part of the acceleration is taken up,
-/// Coulomb friction acts along the surface until the body rolls.
-FlightRate supported_rate(const FlightState& state, const FlightRate& free, const RoundBody& body,
-                          const Surface& surface);
+/// The one threshold of bouncing: where forces press a body back onto what it has just hit, be that
+/// ground, wall or another body, an impact after which it would part at less than this [m/s] does
+/// not bounce at all. Where nothing presses them together, bodies bounce at any speed.
+inline constexpr double kLeastBounce = 0.01;
 
-/// Whether the surface still supports a body that `free` accelerates.
-bool supports(const Surface& surface, const FlightState& state, const FlightRate& free);
+/// Two bodies closer than this touch [m].
+inline constexpr double kTouching = 1e-9;
+
+/// The rates of a body that surfaces support: the normal part of the acceleration is taken up,
+/// Coulomb friction acts along the surface until the body rolls, and rolling resistance c holds
+/// against its turning with a couple of up to c × radius × force.
+/// @param turning  sign of the spin during the step; 0: it does not turn, and may be held so
+FlightRate supported_rate(const FlightState& state, const FlightRate& free, const RoundBody& body,
+                          const std::vector<Surface>& surfaces, double turning);
+
+/// Rests a body on the surfaces that it touches and does not leave or approach.
+void find_supports(FlightState& state, const RoundBody& body,
+                   const std::vector<Surface>& surfaces);
+
+/// Forgets the supports that the velocity leaves or from which the forces draw the body.
+void leave_supports(FlightState& state, const FlightRate& free, const RoundBody& body,
+                    const std::vector<Surface>& surfaces);
+
+/// Takes out what a step's error has left of motion into the supports, and of turning back after a
+/// rolling body has come to rest.
+void settle_on_supports(FlightState& state, const RoundBody& body,
+                        const std::vector<Surface>& surfaces, double turning);
+
+/// Whether a supported body hardly moves; `rest` then brings it to a stand if the forces let it.
+bool is_nearly_at_rest(const FlightState& state, const RoundBody& body);
+void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
+          const std::vector<Surface>& surfaces);
+
+/// Whether the equations of motion change between two states on the same supports: a rolling body
+/// comes to rest, or it passes the end of a face.
+bool changes_on_supports(const FlightState& before, const FlightState& after,
+                         const RoundBody& body, const std::vector<Surface>& surfaces);
 
 /// Impact law: restitution along the normal, Coulomb friction along the surface, limited by the
 /// impulse after which the contact point does not slip (Cross 2002):
 ///   v_n' = −e v_n,  J_t = min(μ (1 + e) |v_n|, |v_t| / (1 + 1/β)),  v_t the slip of the rim.
-/// A bounce too low to be seen, where `free` forces press the body back, makes the surface a
-/// support.
-void bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
+/// A bounce below kLeastBounce, where `free` forces press the body back, makes the surface a
+/// support. What else it rests on is struck in turn.
+/// @returns the impulse [N s]
+Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
             const std::vector<Surface>& surfaces, std::size_t surface);
 
 /// What a sensor may see of a body with these rates of free flight.
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
                                const RoundBody& body, const std::vector<Surface>& surfaces);
 
-/// The body as a collision sees it, and what a collision has made of it.
+/// The body as others see it.
 RigidBody body_in_flight(const FlightState& state);
-void adopt_flight(FlightState& state, const RigidBody& body);
+
+/// An instant, and the time around it during which the wind is smooth.
+struct SmoothInstant {
+  double time = 0.0;                                        // [s]
+  double earliest = 0.0;                                    // [s]
+  double latest = std::numeric_limits<double>::infinity();  // [s]
+};
+
+/// What the model of a round body that gives way offers beside what IsMotionModel asks for.
+///   round(environment)                  what matters when it touches something
+///   flight(state)                       its state; null while it is held and does not give way
+///   rate(flight, environment, now)      what the forces of flight make of a state
+///   stiffness(flight, environment, now) the rate at which these change with the motion [1/s]
+template <class M>
+concept IsRoundModel = requires(const M& model, typename M::State& state, const FlightState& flight,
+                                const Environment& environment, const SmoothInstant& now) {
+  { model.round(environment) } -> std::same_as<RoundBody>;
+  { model.flight(state) } -> std::same_as<FlightState*>;
+  { model.rate(flight, environment, now) } -> std::same_as<FlightRate>;
+  { model.stiffness(flight, environment, now) } -> std::same_as<double>;
+};
 
 /// The keys by which a regime of round bodies says how these bounce.
 template <class RoundRegime, class Visitor>
@@ -73,7 +129,14 @@ void describe_bounce(Visitor& v) {
            .meaning = "coefficient of sliding friction where the surface names none",
            .minimum = 0.0,
            .maximum = 10.0});
+  v.field("rolling", &RoundRegime::rolling,
+          {.unit = "1",
+           .meaning = "coefficient of rolling resistance where the surface names none",
+           .minimum = 0.0,
+           .maximum = 1.0});
 }
+
+inline double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
 
 /// One Runge–Kutta step of fourth order. Rates: FlightRate(const FlightState&, double time).
 template <class Rates>
@@ -155,30 +218,45 @@ double find_impact(double clear, double touching, const Gap& gap, const Recedes&
 /// Flies, bounces and rolls over [from, to].
 template <class Rates>
 void fly(FlightState& state, double from, double to, const RoundBody& body,
-         const std::vector<Surface>& surfaces, const Rates& rates) {
-  // A ball wedged between two surfaces could bounce for ever within a step: after this many
-  // impacts it stays where it is until the step's end.
-  constexpr int kMaxImpacts = 100;
+         const std::vector<Surface>& surfaces, const Rates& rates, ImpactLog* log) {
+  // After so many impacts within a step, whatever still hits something does not bounce.
+  constexpr int kMostImpacts = 100;
+  constexpr int kMostChanges = 100;
+  state.leans = false;
   double time = from;
-  for (int impact = 0; impact <= kMaxImpacts && time < to; ++impact) {
-    if (state.support >= 0) {
-      const Surface& surface = surfaces[static_cast<std::size_t>(state.support)];
-      if (!supports(surface, state, rates(state, time))) state.support = -1;
-    }
+  int changes = 0;
+  for (int impacts = 0; time < to;) {
+    if (state.support >= 0) leave_supports(state, rates(state, time), body, surfaces);
+    const double turning = sign(state.spin);
     const auto rates_here = [&](const FlightState& s, double t) {
       const FlightRate free = rates(s, t);
       if (s.support < 0) return free;
-      return supported_rate(s, free, body, surfaces[static_cast<std::size_t>(s.support)]);
+      return supported_rate(s, free, body, surfaces, turning);
     };
-    const double step = to - time;
-    FlightState next = runge_kutta(state, time, step, rates_here);
+    const auto after = [&](double part) { return runge_kutta(state, time, part, rates_here); };
+    double step = to - time;
+    FlightState next = after(step);
+    if (state.support >= 0 && changes_on_supports(state, next, body, surfaces) &&
+        ++changes < kMostChanges) {
+      double same = 0.0;
+      for (const double enough = 1e-9 * step; step - same > enough;) {
+        const double middle = 0.5 * (same + step);
+        const bool changed = changes_on_supports(state, after(middle), body, surfaces);
+        (changed ? step : same) = middle;
+      }
+      next = after(step);
+    }
     const Approach approach = first_approach(state, next, step, body, surfaces);
     if (approach.surface < 0) {
       state = next;
-      return;
+      time = step == to - time ? to : time + step;
+      if (state.support >= 0) settle_on_supports(state, body, surfaces, turning);
+      if (state.support >= 0 && is_nearly_at_rest(state, body)) {
+        rest(state, rates(state, time), body, surfaces);
+      }
+      continue;
     }
     const auto index = static_cast<std::size_t>(approach.surface);
-    const auto after = [&](double part) { return runge_kutta(state, time, part, rates_here); };
     const auto gap = [&](double part) {
       return surfaces[index].contact(after(part).position).distance - body.radius;
     };
@@ -190,7 +268,13 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
         find_impact(approach.clear * step, approach.touching * step, gap, recedes);
     state = after(impact_time);
     time += impact_time;
-    bounce(state, rates(state, time), body, surfaces, index);
+    RoundBody struck = body;
+    if (++impacts > kMostImpacts) struck.restitution = 0.0;
+    const Vec2 impulse = bounce(state, rates(state, time), struck, surfaces, index);
+    if (log != nullptr && impulse != Vec2::Zero()) {
+      log->push_back({time, approach.surface, state.position, impulse});
+    }
+    if (impacts > 2 * kMostImpacts) return;  // wedged: it stays where it is until the step's end
   }
 }
 
@@ -201,7 +285,7 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
 template <class Rates, class Stiffness>
 void fly_stiffly(FlightState& state, double from, double to, const RoundBody& body,
                  const std::vector<Surface>& surfaces, const Rates& rates,
-                 const Stiffness& stiffness) {
+                 const Stiffness& stiffness, ImpactLog* log) {
   const double shortest = 1e-5 * (to - from);
   double now = stiffness(state, from);
   for (double time = from; time < to;) {
@@ -210,7 +294,8 @@ void fly_stiffly(FlightState& state, double from, double to, const RoundBody& bo
     for (;;) {
       const double end = step >= to - time ? to : time + step;
       FlightState next = state;
-      fly(next, time, end, body, surfaces, rates);
+      const std::size_t logged = log != nullptr ? log->size() : 0;
+      fly(next, time, end, body, surfaces, rates, log);
       const double then = stiffness(next, end);
       if (then * step <= 1.0 || step <= shortest) {
         state = next;
@@ -219,31 +304,26 @@ void fly_stiffly(FlightState& state, double from, double to, const RoundBody& bo
         break;
       }
       step = std::max(0.25 * step, shortest);
+      if (log != nullptr) log->resize(logged);
     }
   }
 }
 
-/// An instant, and the time around it during which the wind is smooth.
-struct SmoothInstant {
-  double time = 0.0;                                        // [s]
-  double earliest = 0.0;                                    // [s]
-  double latest = std::numeric_limits<double>::infinity();  // [s]
-};
-
-/// The same through wind that may jump or bend at instants: each part that is smooth is flown by
-/// itself, and forces are asked for inside it only.
-/// Rates: FlightRate(const FlightState&, const SmoothInstant&), Stiffness: double(the same).
-template <class Rates, class Stiffness>
-void fly_in_wind(FlightState& state, double from, double to, const RoundBody& body,
-                 const Environment& environment, const Rates& rates, const Stiffness& stiffness) {
+/// The same for a model, through wind that may jump or bend at instants: each part that is smooth
+/// is flown by itself, and forces are asked for inside it only.
+template <IsRoundModel Model>
+void fly_in_wind(const Model& model, FlightState& state, const Environment& environment,
+                 double from, double to, ImpactLog* log) {
+  const RoundBody body = model.round(environment);
   environment.wind().over_smooth_parts(from, to, [&](double begin, double end) {
     const auto at = [&](double time) {
       return SmoothInstant{Wind::inside(time, begin, end), begin, end};
     };
     fly_stiffly(
         state, begin, end, body, environment.surfaces(),
-        [&](const FlightState& s, double time) { return rates(s, at(time)); },
-        [&](const FlightState& s, double time) { return stiffness(s, at(time)); });
+        [&](const FlightState& s, double time) { return model.rate(s, environment, at(time)); },
+        [&](const FlightState& s, double time) { return model.stiffness(s, environment, at(time)); },
+        log);
   });
 }
 

@@ -82,7 +82,6 @@ void ThrownBall::hasten(const Vec2& by) {
 
 BallModel::BallModel(const ThrownBall& ball)
     : ball_(ball),
-      round_{ball.radius, ball.inertia, ball.restitution, ball.friction},
       spin_(ball.spin_rpm ? *ball.spin_rpm * 2.0 * portable::kPi / 60.0 : ball.spin.value_or(0.0)),
       area_to_mass_(portable::kPi * ball.radius * ball.radius / (2.0 * ball.mass)) {}
 
@@ -108,9 +107,9 @@ double BallModel::drag_coefficient(const Air& air, double speed) const {
 }
 
 FlightRate BallModel::rate(const FlightState& state, const Environment& environment,
-                           double time) const {
+                           const SmoothInstant& now) const {
   FlightRate rate{environment.gravity(), 0.0};
-  const Vec2 air = state.velocity - environment.wind().at(state.position, time);
+  const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
   const double speed = air.norm();
   const double k = environment.air().density * area_to_mass_;
   rate.acceleration -= k * drag_coefficient(environment.air(), speed) * speed * air;
@@ -124,8 +123,8 @@ FlightRate BallModel::rate(const FlightState& state, const Environment& environm
 }
 
 double BallModel::stiffness(const FlightState& state, const Environment& environment,
-                            double time) const {
-  const Vec2 air = state.velocity - environment.wind().at(state.position, time);
+                            const SmoothInstant& now) const {
+  const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
   const double speed = air.norm();
   const double k = environment.air().density * area_to_mass_;
   double coefficients = 2.0 * drag_coefficient(environment.air(), speed);
@@ -135,21 +134,9 @@ double BallModel::stiffness(const FlightState& state, const Environment& environ
   return rate;
 }
 
-void BallModel::fly_freely(FlightState& state, const Environment& environment, double from,
-                           double to) const {
-  fly_in_wind(
-      state, from, to, round_, environment,
-      [&](const FlightState& s, const SmoothInstant& now) {
-        return rate(s, environment, now.time);
-      },
-      [&](const FlightState& s, const SmoothInstant& now) {
-        return stiffness(s, environment, now.time);
-      });
-}
-
-void BallModel::advance(State& state, const Environment& environment, double from,
-                        double to) const {
-  if (!ball_.juggle) return fly_freely(state.flight, environment, from, to);
+void BallModel::advance(State& state, const Environment& environment, double from, double to,
+                        ImpactLog* log) const {
+  if (!ball_.juggle) return fly_in_wind(*this, state.flight, environment, from, to, log);
   const JugglingPattern pattern(*ball_.juggle, ball_.position, environment.gravity(), state.thrown);
   while (from < to) {
     const double phase_ends = pattern.end_of(state.phase);
@@ -159,7 +146,7 @@ void BallModel::advance(State& state, const Environment& environment, double fro
       state.flight.position = held.position;
       state.flight.velocity = held.velocity;
     } else {
-      fly_freely(state.flight, environment, from, end);
+      fly_in_wind(*this, state.flight, environment, from, end, log);
     }
     if (end == phase_ends) begin_next_phase(state, pattern);
     from = end;
@@ -177,7 +164,8 @@ void BallModel::begin_next_phase(State& state, const JugglingPattern& pattern) c
     return;
   }
   state.flight.spin = 0.0;
-  state.flight.support = -1;
+  state.flight.support = state.flight.second_support = -1;
+  state.flight.leans = false;
   state.carry = Carry{.begin = pattern.end_of(state.phase - 1),
                       .end = pattern.end_of(state.phase),
                       .caught = {state.flight.position, state.flight.velocity},
@@ -187,22 +175,21 @@ void BallModel::begin_next_phase(State& state, const JugglingPattern& pattern) c
 PlanarMotion BallModel::kinematics(const State& state, const Environment& environment, double time,
                                    int) const {
   if (state.carry) return state.carry->at(time);
-  return flight_kinematics(state.flight, rate(state.flight, environment, time), round_,
-                           environment.surfaces());
+  return flight_kinematics(state.flight, rate(state.flight, environment, {.time = time}),
+                           round(environment), environment.surfaces());
 }
 
 RigidBody BallModel::body(const State& state, int) const { return body_in_flight(state.flight); }
 
 ContactProperties BallModel::contact() const {
   return {{Outline::Shape::kDisc, 2.0 * ball_.radius, 2.0 * ball_.radius},
-          ball_.mass,
-          ball_.inertia,
           ball_.restitution,
           ball_.friction};
 }
 
-void BallModel::adopt(State& state, const RigidBody& body) const {
-  if (!state.carry) adopt_flight(state.flight, body);  // a hand does not give way
+RoundBody BallModel::round(const Environment&) const {
+  return {ball_.radius,   ball_.inertia, ball_.restitution,
+          ball_.friction, ball_.rolling, ball_.mass};
 }
 
 }  // namespace ghtrack

@@ -81,6 +81,7 @@ struct ThrownBall {
   double inertia = 0.4;
   double restitution = 0.55;
   double friction = 0.4;
+  double rolling = 0.0;
   std::optional<Juggling> juggle;
 
   static std::span<const ThrownBall> presets();
@@ -90,6 +91,9 @@ struct ThrownBall {
 
   void shift(const Vec2& by);
   void hasten(const Vec2& by);
+  std::string_view unreleasable() const {
+    return juggle ? "the juggler's hands throw this ball" : "";
+  }
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -186,25 +190,27 @@ class BallModel {
   explicit BallModel(const ThrownBall& ball);
 
   State start(const Environment& environment, double time) const;
-  void advance(State& state, const Environment& environment, double from, double to) const;
+  void advance(State& state, const Environment& environment, double from, double to,
+               ImpactLog* log) const;
   int objects() const { return 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                           int object) const;
   int bodies() const { return 1; }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
-  void adopt(State& state, const RigidBody& body) const;
+  RoundBody round(const Environment& environment) const;
+  /// A hand does not give way.
+  FlightState* flight(State& state) const { return state.carry ? nullptr : &state.flight; }
+  FlightRate rate(const FlightState& state, const Environment& environment,
+                  const SmoothInstant& now) const;
+  double stiffness(const FlightState& state, const Environment& environment,
+                   const SmoothInstant& now) const;
 
  private:
-  void fly_freely(FlightState& state, const Environment& environment, double from, double to) const;
   void begin_next_phase(State& state, const JugglingPattern& pattern) const;
-  FlightRate rate(const FlightState& state, const Environment& environment, double time) const;
   double drag_coefficient(const Air& air, double speed) const;
-  /// Rate at which forces and spin change with the motion through the air [1/s].
-  double stiffness(const FlightState& state, const Environment& environment, double time) const;
 
   ThrownBall ball_;
-  RoundBody round_;
   double spin_;          // with which it is thrown [rad/s]
   double area_to_mass_;  // π r² / 2m [m²/kg]
 };

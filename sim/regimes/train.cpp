@@ -271,7 +271,8 @@ TrainModel::State TrainModel::moved(const State& state, double time, double step
   return next;
 }
 
-void TrainModel::advance(State& state, const Environment&, double from, double to) const {
+void TrainModel::advance(State& state, const Environment&, double from, double to,
+                         ImpactLog*) const {
   double time = from;
   while (time < to) {
     decide(state, time);
@@ -335,7 +336,7 @@ RigidBody TrainModel::body(const State& state, int index) const {
 }
 
 ContactProperties TrainModel::contact() const {
-  return {{Outline::Shape::kBox, 0.96 * train_.car_length, train_.car_width}, 0.0, 0.0, 0.3, 0.3};
+  return {{Outline::Shape::kBox, 0.96 * train_.car_length, train_.car_width}, 0.3, 0.3};
 }
 
 }  // namespace ghtrack

@@ -149,6 +149,7 @@ struct Train {
 
   void shift(const Vec2& by) { position += by; }
   void hasten(const Vec2& by) { speed += by.x(); }
+  std::string_view unreleasable() const { return "nothing can release a train"; }
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -279,14 +280,14 @@ class TrainModel {
   explicit TrainModel(const Train& train);
 
   State start(const Environment& environment, double time) const;
-  void advance(State& state, const Environment& environment, double from, double to) const;
+  void advance(State& state, const Environment& environment, double from, double to,
+               ImpactLog* log) const;
   int objects() const { return train_.track_every_car ? train_.cars : 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                           int object) const;
   int bodies() const { return train_.cars; }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
-  void adopt(State&, const RigidBody&) const {}
 
  private:
   struct Effort {                                       // what the driver demands of the train

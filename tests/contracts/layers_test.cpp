@@ -58,7 +58,7 @@ const std::map<std::string, Folders> kAllowed = {
 
 /// The only folders or files that may include a library's headers.
 const std::map<std::string, Folders> kOwners = {
-    {"box2d/", {"sim/collision.cpp", "tools/bench"}},
+    {"box2d/", {"sim/neighbours.cpp", "tools/bench"}},
     {"opencv2/", {"tools/render", "tools/bench"}},
     {"yaml-cpp/", {"scenes/schema"}},
     {"CLI/", {"tools/cli"}},

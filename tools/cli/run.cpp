@@ -58,9 +58,18 @@ class HistoryObserver final : public RunObserver {
 void warn_of_missed_collisions(const TruthSource& truth, const WorldScene& scene) {
   if (truth.missed_collisions() == 0) return;
   tell(
-      "ghtrack: warning: {} collisions were passed over, too fast for steps of 1/{} s; a higher "
+      "ghtrack: warning: {} collisions were passed over, too many for steps of 1/{} s; a higher "
       "physics.rate resolves them",
       truth.missed_collisions(), scene.physics.rate);
+}
+
+void warn_of_displacements(const TruthSource& truth) {
+  for (const Displacement& displaced : truth.displacements()) {
+    tell("ghtrack: warning: '{}' appeared inside something at {:.6g} s and was moved out of it by "
+         "{:.3g} m",
+         truth.objects().at(static_cast<std::size_t>(displaced.object)).name, displaced.time,
+         displaced.distance);
+  }
 }
 
 /// A scene on its way to files: its truth, its sensors, who follows, and who listens. All files
@@ -122,6 +131,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   if (history) write_smoothed_tracks(folder / "tracks.csv", history->history());
   results.commit();
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);
+  if (!manners.quiet) warn_of_displacements(truth);
   print(to_table(report, terminal_width()));
 }
 

@@ -149,7 +149,7 @@ class Backdrop {
     if (!scene_.ground) return {};
     const Ground& ground = *scene_.ground;
     std::vector<Vec2> edge{{world_.min.x(), ground.height_at(world_.min.x())}};
-    for (const Vec2& point : ground.profile) {
+    for (const Vec2& point : ground.outline()) {
       if (point.x() > world_.min.x() && point.x() < world_.max.x()) edge.push_back(point);
     }
     edge.emplace_back(world_.max.x(), ground.height_at(world_.max.x()));

@@ -24,13 +24,14 @@ std::shared_ptr<const TruthSnapshot> SimulatedTruth::at(double time) {
 
 TruthRecording record(TruthSource& truth, const std::vector<double>& instants,
                       const std::function<void()>& on_step) {
-  TruthRecording recording{.objects = truth.objects(), .snapshots = {}};
+  TruthRecording recording{.objects = truth.objects(), .snapshots = {}, .displacements = {}};
   recording.snapshots.reserve(instants.size());
   for (const double time : instants) {
     on_step();
     recording.snapshots.push_back(truth.at(time));
   }
   recording.missed_collisions = truth.missed_collisions();
+  recording.displacements = truth.displacements();
   return recording;
 }
 

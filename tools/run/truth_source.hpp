@@ -26,6 +26,9 @@ class TruthSource {
 
   /// How often targets passed through what they met, see World::missed_collisions().
   virtual std::int64_t missed_collisions() const = 0;
+
+  /// Who appeared inside something so far, and was moved out of it.
+  virtual const std::vector<Displacement>& displacements() const = 0;
 };
 
 /// Truth that is simulated as it is asked for.
@@ -41,6 +44,9 @@ class SimulatedTruth final : public TruthSource {
     latest_ = nullptr;
   }
   std::int64_t missed_collisions() const override { return world_.missed_collisions(); }
+  const std::vector<Displacement>& displacements() const override {
+    return world_.displacements();
+  }
 
  private:
   std::function<World()> make_world_;
@@ -53,6 +59,7 @@ struct TruthRecording {
   std::vector<ObjectInfo> objects;
   std::vector<std::shared_ptr<const TruthSnapshot>> snapshots;  // ascending
   std::int64_t missed_collisions = 0;
+  std::vector<Displacement> displacements;
 };
 
 /// Goes through a truth and keeps it at some instants.
@@ -78,6 +85,9 @@ class ReplayedTruth final : public TruthSource {
   std::shared_ptr<const TruthSnapshot> at(double time) override;
   void restart() override { next_ = 0; }
   std::int64_t missed_collisions() const override { return recording_->missed_collisions; }
+  const std::vector<Displacement>& displacements() const override {
+    return recording_->displacements;
+  }
 
  private:
   std::shared_ptr<const TruthRecording> recording_;

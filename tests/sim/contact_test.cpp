@@ -1,0 +1,263 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sim/portable_math.hpp"
+#include "tests/sim/energy_world.hpp"
+#include "tests/sim/scenario.hpp"
+
+namespace ghtrack {
+namespace {
+
+ThrownBall billiard_ball(const Vec2& position, const Vec2& velocity) {
+  ThrownBall ball = plain_ball(position, velocity);
+  ball.radius = 0.1;
+  ball.mass = 1.0;
+  ball.restitution = 1.0;
+  ball.friction = 0.0;
+  return ball;
+}
+
+WorldConfig in_empty_space(std::vector<Target> targets) {
+  WorldConfig config = world_of(std::move(targets));
+  config.environment.gravity = 0.0;
+  config.environment.air.density = 0.0;
+  return config;
+}
+
+double angle_of(const Vec2& v) { return portable::atan2(v.y(), v.x()); }
+
+// Derived: a smooth elastic ball that hits an equal one at rest with the offset b hands on the part
+// of its velocity along the line of centres, sin θ = b / 2r, and keeps the rest; up to hits that
+// only just touch, at any phase of the step.
+TEST(Contact, TurnsObliqueHitsByTheClosedForm) {
+  for (const double offset : {0.0, 0.05, 0.1414, 0.1985, 0.1999, 0.199999}) {
+    for (int phase = 0; phase < 20; ++phase) {
+      const double begin = -0.025 * phase / 20.0;
+      World world(in_empty_space({target_of(billiard_ball(Vec2(begin, 0.0), Vec2(6.0, 0.0)), "a"),
+                                  target_of(billiard_ball(Vec2(2.0, offset), Vec2::Zero()), "b")}),
+                  1);
+      const TruthSnapshot truth = world.sample(0.9);
+      const double sine = offset / 0.2;
+      const Vec2 normal(std::sqrt(1.0 - sine * sine), sine);
+      const Vec2 given = 6.0 * normal.x() * normal;
+      const Vec2 kept = Vec2(6.0, 0.0) - given;
+      ASSERT_LT((truth.objects[0].velocity - kept).norm(), 1e-6) << offset;
+      ASSERT_LT((truth.objects[1].velocity - given).norm(), 1e-6) << offset;
+      ASSERT_NEAR(angle_of(truth.objects[1].velocity), angle_of(given), 1e-5) << offset;
+    }
+  }
+}
+
+// Derived: one ball missed by a hair stays where it is.
+TEST(Contact, LetsBallsPassThatDoNotTouch) {
+  World world(in_empty_space({target_of(billiard_ball(Vec2(0.0, 0.0), Vec2(6.0, 0.0)), "a"),
+                              target_of(billiard_ball(Vec2(2.0, 0.2000001), Vec2::Zero()), "b")}),
+              1);
+  const TruthSnapshot truth = world.sample(0.9);
+  EXPECT_EQ(truth.objects[0].velocity, Vec2(6.0, 0.0));
+  EXPECT_EQ(truth.objects[1].velocity, Vec2::Zero());
+}
+
+// Derived: v1' = (1 − e) v / 2 and v2' = (1 + e) v / 2 at any speed where nothing presses the two
+// together, with a wall v' = −e v.
+TEST(Contact, BouncesAtAnySpeedWhereNothingPresses) {
+  for (const double speed : {1e-4, 0.005, 0.0999, 0.1001, 3.0}) {
+    ThrownBall moving = billiard_ball(Vec2(0.0, 0.0), Vec2(speed, 0.0));
+    ThrownBall resting = billiard_ball(Vec2(0.2 + speed, 0.0), Vec2::Zero());
+    moving.restitution = resting.restitution = 0.9;
+    World two(in_empty_space({target_of(moving, "a"), target_of(resting, "b")}), 1);
+    const TruthSnapshot truth = two.sample(2.0);
+    EXPECT_NEAR(truth.objects[0].velocity.x(), 0.05 * speed, 1e-9 * speed);
+    EXPECT_NEAR(truth.objects[1].velocity.x(), 0.95 * speed, 1e-9 * speed);
+
+    WorldConfig config = in_empty_space({target_of(moving, "a")});
+    config.environment.walls = {
+        Wall{Vec2(0.1 + 0.5 * speed, -1.0), Vec2(0.1 + 0.5 * speed, 1.0)}};
+    World wall(config, 1);
+    EXPECT_NEAR(state_at(wall, 2.0).velocity.x(), -0.9 * speed, 1e-9 * speed);
+  }
+}
+
+// Derived: in a row of touching elastic balls impacts follow one after the other, so the last takes
+// the velocity of the first; two that arrive send two away.
+TEST(Contact, HandsOnTheVelocityThroughACradle) {
+  for (const int arriving : {1, 2}) {
+    std::vector<Target> targets;
+    for (int i = 0; i < arriving; ++i) {
+      targets.push_back(target_of(billiard_ball(Vec2(-1.0 - 0.2 * i, 0.0), Vec2(2.0, 0.0))));
+    }
+    for (int i = 1; i <= 4; ++i) {
+      targets.push_back(target_of(billiard_ball(Vec2(0.2 * i, 0.0), Vec2::Zero())));
+    }
+    World world(in_empty_space(targets), 1);
+    const TruthSnapshot truth = world.sample(1.5);
+    const std::size_t leaving = targets.size() - static_cast<std::size_t>(arriving);
+    double momentum = 0.0;
+    for (std::size_t i = 0; i < targets.size(); ++i) momentum += truth.objects[i].velocity.x();
+    EXPECT_NEAR(momentum, 2.0 * arriving, 1e-12);
+    for (std::size_t i = leaving; i < targets.size(); ++i) {
+      EXPECT_NEAR(truth.objects[i].velocity.x(), 2.0, 1e-9) << arriving << ' ' << i;
+    }
+  }
+}
+
+// Property: a ball that lies on another, on a train or in a corner lies still: no velocity and no
+// acceleration, and it does not sink.
+TEST(Contact, IsAtRestWithoutVelocityOrAcceleration) {
+  ThrownBall low = billiard_ball(Vec2(0.0, 0.1), Vec2::Zero());
+  low.restitution = 0.3;
+  low.friction = 0.4;
+  std::vector<Target> targets;
+  for (int i = 0; i < 3; ++i) {
+    ThrownBall ball = low;
+    ball.position.y() = 0.1 + 0.2 * i;
+    targets.push_back(target_of(ball));
+  }
+  WorldConfig config = world_of(targets);
+  config.environment.walls = {Wall{Vec2(-0.101, 5.0), Vec2(-0.101, 0.0)},
+                              Wall{Vec2(-0.101, 0.0), Vec2(0.101, 0.0)},
+                              Wall{Vec2(0.101, 0.0), Vec2(0.101, 5.0)}};
+  World stack(config, 1);
+  for (const double time : {0.0, 0.003, 1.0, 10.0}) {
+    const TruthSnapshot truth = stack.sample(time);
+    for (std::size_t i = 0; i < truth.objects.size(); ++i) {
+      EXPECT_NEAR(truth.objects[i].position.y(), 0.1 + 0.2 * static_cast<double>(i), 1e-9) << time;
+      EXPECT_EQ(truth.objects[i].velocity, Vec2::Zero()) << time;
+      EXPECT_EQ(truth.objects[i].acceleration, Vec2::Zero()) << time;
+    }
+  }
+
+  ThrownBall dropped = billiard_ball(Vec2(0.0, 3.0), Vec2::Zero());
+  dropped.restitution = 0.3;
+  dropped.friction = 0.4;
+  Train standing = single_car(0.0, 0.0);
+  World roof(world_of({target_of(dropped), target_of(standing)}), 1);
+  const TruthState state = state_at(roof, 8.0);
+  EXPECT_NEAR(state.position.y(), 0.5 * standing.car_width + 0.1, 1e-9);
+  EXPECT_EQ(state.velocity, Vec2::Zero());
+  EXPECT_EQ(state.acceleration, Vec2::Zero());
+}
+
+// Property: a balloon that the wind presses into a corner rests there.
+TEST(Contact, RestsInACornerUnderWind) {
+  Balloon balloon;
+  WorldConfig config = world_of({target_of(balloon)});
+  config.environment.wind.mean = Vec2(3.0, 0.0);
+  config.environment.walls = {Wall{Vec2(1.0, -5.0), Vec2(1.0, 5.0)},
+                              Wall{Vec2(-1.0, 5.0), Vec2(1.0, 5.0)}};
+  World world(config, 1);
+  const TruthState state = state_at(world, 60.0);
+  EXPECT_NEAR(state.position.x(), 1.0 - balloon.radius, 1e-9);
+  EXPECT_NEAR(state.position.y(), 5.0 - balloon.radius, 1e-9);
+  EXPECT_EQ(state.velocity, Vec2::Zero());
+  EXPECT_EQ(state.acceleration, Vec2::Zero());
+}
+
+// Property: a rolling ball that has hit a wall comes back to the ground.
+TEST(Contact, ComesBackToTheGroundFromAWall) {
+  ThrownBall ball = plain_ball(Vec2(0.0, 0.11), Vec2(8.0, 0.0));
+  ball.radius = 0.11;
+  ball.mass = 0.43;
+  WorldConfig config = world_of({target_of(ball)});
+  config.environment.ground = Ground{0.0, 0.6, 0.4};
+  config.environment.walls = {Wall{Vec2(10.0, 0.0), Vec2(10.0, 3.0)}};
+  World world(config, 1);
+  for (int i = 0; i < 2000; ++i) ASSERT_LT(state_at(world, 0.01 * i).position.y(), 0.6);
+  EXPECT_NEAR(state_at(world, 20.0).position.y(), 0.11, 1e-9);
+  EXPECT_EQ(state_at(world, 20.0).velocity.y(), 0.0);
+}
+
+// Derived: a rolling ball slows down by c g / (1 + β) and stops after v² (1 + β) / (2 c g); there it
+// stays, against any force that is weaker than c m g.
+TEST(Contact, StopsByRollingResistance) {
+  ThrownBall ball = plain_ball(Vec2(0.0, 0.0366), Vec2(3.0, 0.0));
+  ball.spin = -3.0 / ball.radius;
+  WorldConfig config = world_of({target_of(ball)});
+  config.environment.ground = Ground{};
+  config.environment.ground->rolling = 0.05;
+  World world(config, 1);
+  const double slowing = 0.05 * kStandardGravity / 1.4;
+  EXPECT_NEAR(state_at(world, 2.0).velocity.x(), 3.0 - 2.0 * slowing, 1e-6);
+  const TruthState state = state_at(world, 60.0);
+  EXPECT_NEAR(state.position.x(), 9.0 / (2.0 * slowing), 1e-5);
+  EXPECT_EQ(state.velocity, Vec2::Zero());
+  EXPECT_EQ(state.acceleration, Vec2::Zero());
+}
+
+// Property: the wind rolls a ball over concrete, and not for ever over grass.
+TEST(Contact, LetsGrassStopABallInTheWind) {
+  ThrownBall ball;
+  for (const ThrownBall& preset : ThrownBall::presets()) {
+    if (preset.type == "soccer") ball = preset;
+  }
+  ball.position = Vec2(0.0, ball.radius);
+  ball.velocity = Vec2(6.0, 0.0);
+  WorldConfig config = world_of({target_of(ball)});
+  config.environment.wind.mean = Vec2(4.0, 0.0);
+  for (const Ground& ground : surfaces_of_all_materials<Ground>()) {
+    if (ground.material != "grass" && ground.material != "concrete") continue;
+    config.environment.ground = ground;
+    World world(config, 1);
+    const double speed = state_at(world, 60.0).velocity.x();
+    if (ground.material == "grass") {
+      EXPECT_EQ(speed, 0.0);
+    } else {
+      EXPECT_GT(speed, 0.5);
+    }
+  }
+}
+
+// Derived: on a smooth valley y = x²/2R near its bottom a ball that slides without friction swings
+// with the period of a pendulum of length R − r, and keeps its energy.
+TEST(Contact, SwingsInASmoothValley) {
+  Ground valley;
+  for (int i = -40; i <= 40; ++i) {
+    const double x = 0.25 * i;
+    valley.profile.emplace_back(x, 0.5 * x * x / 10.0);
+  }
+  valley.smooth = true;
+  ThrownBall ball = plain_ball(Vec2(0.3, 0.3 * 0.3 / 20.0), Vec2::Zero());
+  ball.friction = 0.0;
+  ball.restitution = 0.0;
+  const Vec2 normal = Vec2(-0.03, 1.0).normalized();
+  ball.position += ball.radius * normal;
+  WorldConfig config = world_of({target_of(ball)});
+  config.environment.ground = valley;
+  World world(config, 1);
+  const double period = 2.0 * portable::kPi * std::sqrt((10.0 - ball.radius) / kStandardGravity);
+  EXPECT_NEAR(state_at(world, 0.25 * period).position.x(), 0.0, 2e-3);
+  EXPECT_NEAR(state_at(world, period).position.x(), ball.position.x(), 2e-3);
+  EXPECT_NEAR(state_at(world, 10.25 * period).velocity.norm(),
+              std::sqrt(2.0 * kStandardGravity * (ball.position.y() - ball.radius)), 2e-3);
+}
+
+// Property: who appears inside something is moved out of it, and that is said.
+TEST(Contact, MovesOutWhoAppearsInsideSomething) {
+  Target late = target_of(billiard_ball(Vec2(0.05, 0.12), Vec2::Zero()), "late");
+  late.appears = 0.5;
+  WorldConfig config = world_of({target_of(billiard_ball(Vec2(0.0, 0.1), Vec2::Zero())), late});
+  config.environment.ground = Ground{};
+  World world(config, 1);
+  const TruthSnapshot truth = world.sample(0.5);
+  ASSERT_EQ(world.displacements().size(), 1u);
+  EXPECT_EQ(world.displacements()[0].object, 1);
+  EXPECT_EQ(world.displacements()[0].time, 0.5);
+  EXPECT_GT(world.displacements()[0].distance, 0.1);
+  EXPECT_GT((truth.objects[0].position - truth.objects[1].position).norm(), 0.2 - 1e-8);
+}
+
+// Property: without wind and motors the energy of balls between walls, ramps, valleys and each other
+// never grows, nobody sinks into anything, and no impact is passed over. The program energy_worlds
+// tries as many as one likes.
+TEST(Contact, NeverGainsEnergy) {
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    const EnergyRun run = run_energy_world(seed);
+    EXPECT_LT(run.most_gained, 1e-7 * run.begun) << seed;
+    EXPECT_GT(run.lowest, -1e-6) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace ghtrack

@@ -1,0 +1,138 @@
+#include "tests/sim/energy_world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <string>
+#include <variant>
+
+#include "sim/random.hpp"
+#include "tests/sim/scenario.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kDepth = -3.0;  // below every ground [m]
+
+ThrownBall random_ball(Stream& stream) {
+  const double radius = 0.03 + 0.15 * stream.uniform();
+  const double density = 300.0 * std::exp(2.0 * stream.uniform());
+  const double x = -3.0 + 6.0 * stream.uniform();
+  const double y = 2.5 + 3.0 * stream.uniform();
+  const double vx = 6.0 * (stream.uniform() - 0.5);
+  const double vy = 6.0 * (stream.uniform() - 0.5);
+  ThrownBall ball = plain_ball(Vec2(x, y), Vec2(vx, vy));
+  ball.radius = radius;
+  ball.mass = density * 4.19 * radius * radius * radius;
+  ball.inertia = stream.uniform() < 0.5 ? 0.4 : 0.667;
+  const double kind = stream.uniform();
+  const double between = stream.uniform();
+  ball.restitution = kind < 0.15 ? 0.0 : kind > 0.85 ? 1.0 : between;
+  const double rough = stream.uniform();
+  const double friction = stream.uniform();
+  ball.friction = rough < 0.2 ? 0.0 : 1.2 * friction;
+  const double rolling = stream.uniform();
+  ball.rolling = rolling < 0.5 ? 0.0 : 0.2 * (rolling - 0.5);
+  const double spin = stream.uniform();
+  ball.spin = 60.0 * (spin - 0.5);
+  return ball;
+}
+
+EnvironmentConfig random_surroundings(Stream& stream) {
+  EnvironmentConfig environment;
+  environment.air.density = 0.0;
+  const double kind = stream.uniform();
+  Ground ground;
+  if (kind < 0.25) {
+    const double slope = 0.2 + 1.5 * stream.uniform();
+    ground.profile = {Vec2(-6.0, 6.0 * slope - 1.0), Vec2(0.0, -1.0), Vec2(6.0, 6.0 * slope - 1.0)};
+  } else if (kind < 0.5) {
+    for (int i = 0; i < 7; ++i) {
+      const double height = stream.uniform();
+      ground.profile.emplace_back(-6.0 + 2.0 * i, -1.0 + 2.0 * height);
+    }
+    ground.smooth = stream.uniform() < 0.7;
+  }
+  environment.ground = ground;
+  environment.walls = {Wall{Vec2(-4.0, -2.0), Vec2(-4.0, 9.0)}, Wall{Vec2(4.0, -2.0), Vec2(4.0, 9.0)}};
+  const int ramps = static_cast<int>(4.0 * stream.uniform());
+  for (int i = 0; i < ramps; ++i) {
+    const double x = 6.0 * (stream.uniform() - 0.5);
+    const double y = 1.2 + stream.uniform();
+    const double run = 2.0 * (stream.uniform() - 0.5);
+    const double rise = 0.8 * (stream.uniform() - 0.5);
+    if (std::abs(run) < 0.1) continue;
+    environment.walls.push_back(Wall{Vec2(x, y), Vec2(x + run, y + rise)});
+  }
+  if (stream.uniform() < 0.4) {
+    const double x = 4.0 * (stream.uniform() - 0.5);
+    const double angle = 90.0 * stream.uniform();
+    environment.boxes = {SolidBox{.center = Vec2(x, 0.5), .size = Vec2(1.0, 0.7), .angle_deg = angle}};
+  }
+  return environment;
+}
+
+}  // namespace
+
+WorldConfig energy_world(std::uint64_t seed) {
+  Stream stream(seed, Purpose::kGeneration, key_of("energy"), 0);
+  WorldConfig config;
+  config.environment = random_surroundings(stream);
+  const double rate = stream.uniform();
+  config.physics.rate = rate < 0.3 ? 60.0 : 240.0;
+  const int balls = 1 + static_cast<int>(12.0 * stream.uniform());
+  for (int i = 0; i < balls; ++i) {
+    config.targets.push_back(target_of(random_ball(stream), "ball " + std::to_string(i)));
+    if (!find_problems(config.targets, config.environment).empty()) config.targets.pop_back();
+  }
+  // A column, each ball on top of the one below.
+  if (stream.uniform() < 0.4) {
+    const ThrownBall like = random_ball(stream);
+    const int count = 2 + static_cast<int>(4.0 * stream.uniform());
+    for (int i = 0; i < count; ++i) {
+      ThrownBall ball = like;
+      ball.position = Vec2(-3.5, 2.3 + 2.0 * like.radius * i);
+      ball.velocity = Vec2::Zero();
+      config.targets.push_back(target_of(ball, "column " + std::to_string(i)));
+      if (!find_problems(config.targets, config.environment).empty()) config.targets.pop_back();
+    }
+  }
+  return config;
+}
+
+EnergyRun run_energy_world(std::uint64_t seed) {
+  const std::clock_t begin = std::clock();
+  const WorldConfig config = energy_world(seed);
+  World world(config, seed);
+  EnergyRun result;
+  double least = 0.0;
+  for (int i = 0; i <= 120; ++i) {
+    const TruthSnapshot truth = world.sample(0.05 * i);
+    double energy = 0.0;
+    for (std::size_t k = 0; k < truth.objects.size(); ++k) {
+      const auto& ball = std::get<ThrownBall>(config.targets[k].motion);
+      const double rim = truth.bodies[k].spin * ball.radius;
+      const TruthState& state = truth.objects[k];
+      energy += ball.mass * (kStandardGravity * (state.position.y() - kDepth) +
+                             0.5 * state.velocity.squaredNorm() + 0.5 * ball.inertia * rim * rim);
+      for (const Surface& surface : world.environment().surfaces()) {
+        result.lowest =
+            std::min(result.lowest, surface.contact(state.position).distance - ball.radius);
+      }
+      for (std::size_t j = 0; j < k; ++j) {
+        const double apart = (state.position - truth.objects[j].position).norm();
+        result.lowest = std::min(
+            result.lowest,
+            apart - ball.radius - std::get<ThrownBall>(config.targets[j].motion).radius);
+      }
+    }
+    if (i == 0) result.begun = least = energy;
+    result.most_gained = std::max(result.most_gained, energy - least);
+    least = std::min(least, energy);
+  }
+  result.collisions_missed = world.missed_collisions();
+  result.cpu_time = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return result;
+}
+
+}  // namespace ghtrack

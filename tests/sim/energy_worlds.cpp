@@ -1,0 +1,44 @@
+// energy_worlds [N [FIRST]]: runs N random worlds of balls (10 000 unless told) from seed FIRST on
+// for six seconds each, and tells in which energy grew or something sank into something else. The
+// suite runs the first few.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "tests/sim/energy_world.hpp"
+
+int main(int argc, char** argv) {
+  const std::uint64_t count = argc > 1 ? std::stoull(argv[1]) : 10'000;
+  const std::uint64_t first = argc > 2 ? std::stoull(argv[2]) : 0;
+  std::uint64_t failures = 0;
+  long missed = 0;
+  double total = 0.0;
+  double slowest = 0.0;
+  double most = 0.0;
+  double lowest = 0.0;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    try {
+      const ghtrack::EnergyRun run = ghtrack::run_energy_world(seed);
+      const double gained = run.most_gained / run.begun;
+      total += run.cpu_time;
+      slowest = std::max(slowest, run.cpu_time);
+      most = std::max(most, gained);
+      lowest = std::min(lowest, run.lowest);
+      missed += run.collisions_missed;
+      if (gained < 1e-7 && run.lowest > -1e-6) continue;
+      std::printf("seed %ju: gained %.2e of its energy, lowest gap %.2e m, missed %ld\n",
+                  static_cast<std::uintmax_t>(seed), gained, run.lowest, run.collisions_missed);
+    } catch (const std::exception& error) {
+      std::printf("seed %ju: %s\n", static_cast<std::uintmax_t>(seed), error.what());
+    }
+    ++failures;
+  }
+  std::printf("%ju worlds in %.1f s (slowest %.2f s), %ju failures, %ld collisions missed; most "
+              "gained %.2e of the energy, lowest gap %.2e m\n",
+              static_cast<std::uintmax_t>(count), total, slowest,
+              static_cast<std::uintmax_t>(failures), missed, most, lowest);
+  return failures == 0 ? 0 : 1;
+}
