@@ -35,6 +35,8 @@ struct RunOptions {
   std::optional<bool> video;  // overrides what the scene says
   VideoLook look;
   bool compare = false;       // the video shows the filters under `compare`, on the same run
+  bool matches = false;       // write matches.csv
+  bool plots = false;         // write plots.svg
 };
 
 struct VideoCommandOptions {
@@ -74,6 +76,13 @@ struct ViewOptions {
   std::string screenshot;  // PNG file; empty: none
 };
 
+/// How somebody else's tables are to be read.
+struct DataOptions {
+  std::string columns;  // t=NAME,x=NAME,…; empty: by their names
+  std::optional<double> frame_rate;
+  bool skip_bad_rows = false;
+};
+
 struct FilterCommandOptions {
   std::string file = "-";  // series, or - for standard input
   std::string filter = "gh";  // a name, or a configuration as in a scene
@@ -83,7 +92,8 @@ struct FilterCommandOptions {
   std::optional<int> order;
   std::optional<double> dt;      // [s]; of the times, or 1
   std::optional<double> period;  // of angles
-  std::string t_column;          // empty: rows are dt apart
+  std::string t_column;          // of the times; empty: as its name tells, unless there is a dt
+  DataOptions data;
   bool json = false;
 };
 
@@ -98,13 +108,6 @@ struct GainsCommandOptions {
   bool json = false;
 };
 
-/// How somebody else's tables are to be read.
-struct DataOptions {
-  std::string columns;  // t=NAME,x=NAME,…; empty: by their names
-  std::optional<double> frame_rate;
-  bool skip_bad_rows = false;
-};
-
 struct PlotOptions {
   std::string source;  // folder of a run, tracks, or a series
   std::string output;  // file ending in svg, pdf or png
@@ -116,6 +119,17 @@ struct PlotOptions {
   bool dark = false;
 };
 
+/// A video of tracks over what they were seen in.
+struct FilmOptions {
+  std::string output;                   // empty: none
+  std::string background;               // video, folder of pictures, or a map; empty: dark ground
+  std::vector<std::string> homography;  // four times X,Y=U,V; none: data are pixels
+  std::optional<double> start;          // time of the data at the first picture [s]
+  // What the data say of their pictures:
+  std::optional<double> frame_rate;     // [Hz]
+  std::optional<int> width, height;     // [px]
+};
+
 struct TrackOptions {
   std::vector<std::string> detections;  // files, or MOTChallenge sequence folders
   DataOptions data;
@@ -123,6 +137,8 @@ struct TrackOptions {
   std::string format = "auto";
   std::string config;             // YAML file of a tracker; empty: the defaults
   std::string output;             // empty: standard output
+  bool plots = false;             // also draw them, beside the output
+  FilmOptions film;
   std::string evaluation_folder;  // for public evaluation kits; empty: none
   std::string benchmark = "MOT15", split = "train", tracker_name = "ghtrack";
   bool timings = false;

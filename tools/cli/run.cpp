@@ -20,7 +20,10 @@
 #include "tools/cli/video_look.hpp"
 #include "tools/film/film.hpp"
 #include "tools/film/scene_drawing.hpp"
+#include "tools/metrics/match_writer.hpp"
 #include "tools/metrics/run_metrics.hpp"
+#include "tools/plot/figure_file.hpp"
+#include "tools/plot/track_figure.hpp"
 #include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
 #include "tools/run/run.hpp"
@@ -42,6 +45,19 @@ void warn_of_missed_collisions(const TruthSource& truth, const WorldScene& scene
       "ghtrack: warning: {} collisions were passed over, too fast for steps of 1/{} s; a higher "
       "physics.rate resolves them",
       truth.missed_collisions(), scene.physics.rate);
+}
+
+/// Draws the tracks of the run beside its truth and detections.
+void write_plots(const fs::path& folder, const RunMetricsOptions& scoring,
+                 const std::string& title) {
+  const plot::Figure figure = plot::figure_of({.tracks = (folder / "tracks.csv").string(),
+                                               .truth = (folder / "truth.csv").string(),
+                                               .detections = (folder / "detections.csv").string(),
+                                               .panels = {},
+                                               .cutoff = scoring.gospa().cutoff,
+                                               .title = title,
+                                               .reading = {}});
+  plot::write_figure(folder / "plots.svg", figure, {});
 }
 
 /// A scene on its way to files: its truth, its sensors, who follows, and who listens. All files
@@ -70,9 +86,14 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   const std::vector<double> frames = film ? film->frame_times() : std::vector<double>{};
 
   RunWatch watch(frames.size(), manners.quiet);
-  RunWriter files(folder, objects, sensor_names(scene));
-  RunMetrics metrics(objects, scoring_for(traits_of(scene.sensors)));
+  RunWriter files(folder, objects, sensor_names(scene),
+                  options.plots ? innovation_columns() : TrackColumns());
+  const RunMetricsOptions scoring = scoring_for(traits_of(scene.sensors));
+  RunMetrics metrics(objects, scoring);
+  std::optional<RunMatches> matches;
+  if (options.matches) matches.emplace(folder / "matches.csv", scoring.gospa());
   RunObservers observers = {&watch, &files, &metrics};
+  if (matches) observers.push_back(&*matches);
   if (film) observers.push_back(&*film);
   TruthSource& truth = film ? film->truth() : simulated;
   std::vector<RunCounts> counts;
@@ -83,6 +104,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
     nlohmann::ordered_json so_far = to_json(metrics.report());
     so_far["partial"] = true;
     write_partial_file(folder / "metrics.json", so_far.dump(2) + "\n");
+    if (matches) matches->keep_partial();
     if (film) film->writer().keep_partial();
     results.keep_partial();
     interrupted.remark = fmt::format("{} holds what was done so far, in files named .partial",
@@ -96,6 +118,8 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   write_file(folder / "scene.yaml", write_scene(scene));
   write_file(folder / "metrics.json", to_json(report).dump(2) + "\n");
   files.commit();
+  if (matches) matches->commit();
+  if (options.plots) write_plots(folder, scoring, scene.name);
   results.commit();
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);
   print(to_table(report, terminal_width()));
@@ -130,7 +154,7 @@ std::vector<fs::path> folders_of(const RunOptions& options, const std::vector<Sc
 int run(const RunOptions& options, const Manners& manners) {
   std::vector<Scene> scenes;
   for (const std::string& file : options.scene.files) {
-    scenes.push_back(load_scene(file, options.scene));
+    scenes.push_back(load_scene(file, options.scene, manners));
   }
   const std::vector<fs::path> folders = folders_of(options, scenes);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -138,7 +162,7 @@ int run(const RunOptions& options, const Manners& manners) {
     if (const auto* world = std::get_if<WorldScene>(&scenes[i])) {
       run_world(*world, results, options, manners);
     } else {
-      run_series(std::get<SeriesScene>(scenes[i]), results);
+      run_series(std::get<SeriesScene>(scenes[i]), results, options.plots);
     }
     if (!manners.quiet) {
       tell("{}: results in {}", name_of(scenes[i]), folders[i].string());

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -15,6 +16,7 @@
 #include "scenes/schema/reader.hpp"
 #include "tools/render/errors.hpp"
 #include "tools/render/output_path.hpp"
+#include "tools/run/series_file.hpp"
 #include "tools/view/display.hpp"
 #include "tools/view/window.hpp"
 
@@ -55,7 +57,10 @@ int fail(int exit_code, std::string_view message) {
 int run(const std::vector<std::string>& words) try {
   const auto request = parse(words);
   if (!request) return fail(kInputWrong, "usage: ghtrack view SCENE");
-  const Scene scene = read_scene(request->scene, request->overrides);
+  Scene scene = read_scene(request->scene, request->overrides);
+  if (auto* const series = std::get_if<SeriesScene>(&scene)) {
+    read_measurements(*series, std::filesystem::path(request->scene).parent_path());
+  }
   if (request->screenshot) render::check_output_path(*request->screenshot, {"png"});
   if (const std::string problem = display_problem(); !problem.empty())
     return fail(kEnvironmentFailed,

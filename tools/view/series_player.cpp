@@ -1,6 +1,7 @@
 #include "tools/view/series_player.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "tools/film/series_plot.hpp"
@@ -29,15 +30,17 @@ SeriesPlayer::SeriesPlayer(const SeriesScene& scene) : scene_(scene) {
   const SeriesFilter& filter = scene_.filters.back();
   const SeriesGhk gains = gains_of(filter.model);
   const SeriesResult result = run(scene_);
-  const auto [least, most] =
-      std::minmax_element(result.tracks.front().rows.begin(), result.tracks.front().rows.end(),
-                          [](const SeriesRow& a, const SeriesRow& b) { return a.z < b.z; });
-  const double span = std::max(1.0, most->z - least->z);
+  double least = filter.x0, most = filter.x0;
+  for (const SeriesRow& row : result.tracks.front().rows) {  // a missed one is NaN
+    least = std::fmin(least, row.z);
+    most = std::fmax(most, row.z);
+  }
+  const double span = std::max(1.0, most - least);
   const double rate = 5.0 * span / static_cast<double>(result.tracks.front().rows.size());
   knobs_ = {knob("g", 0.0, 2.0, gains.g, gains.g >= 0.0),
             knob("h", 0.0, 2.0, gains.h, gains.h >= 0.0),
             knob("k", 0.0, 1.0, gains.k, gains.k >= 0.0),
-            knob("x0", least->z - span, most->z + span, filter.x0, false),
+            knob("x0", least - span, most + span, filter.x0, false),
             knob("dx0", -rate, rate, filter.dx0, false)};
   if (const auto* data = std::get_if<GeneratedSeries>(&scene_.data))
     knobs_.push_back(knob("noise", 0.0, std::max(1.0, 3.0 * data->noise), data->noise, true));
