@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <deque>
 #include <map>
 
 #include "tools/cli/homography.hpp"
@@ -24,12 +24,25 @@ constexpr double kTimeLapse = 25.0;   // pictures a second then
 constexpr double kPatience = 1.5;     // how long an instant is shown, in periods
 constexpr double kSpeedReach = 0.4;   // over which the speed of a box is taken [s]
 constexpr double kMargin = 0.06;      // around data on dark ground
+constexpr std::size_t kLongestPast = 2000;  // detections that stay on a map
 constexpr int kLeastSide = 160;       // [px]
 
 /// Pictures a second of a film without a background that moves.
 double rate_of(double period) {
   const double rate = period > 0.0 ? 1.0 / period : kTimeLapse;
   return rate < kSlow ? kTimeLapse : std::min(rate, kQuick);
+}
+
+/// Adds what was seen in earlier pictures, and remembers what is seen in this one.
+void show_past(std::vector<render::FootageDetection>& now,
+               std::deque<render::FootageDetection>& past) {
+  const std::size_t fresh = now.size();
+  now.insert(now.begin(), past.begin(), past.end());
+  for (std::size_t i = now.size() - fresh; i < now.size(); ++i) {
+    past.push_back(now[i]);
+    past.back().is_past = true;
+  }
+  while (past.size() > kLongestPast) past.pop_front();
 }
 
 int even(double pixels) { return std::max(kLeastSide, 2 * static_cast<int>(std::ceil(pixels / 2))); }
@@ -171,7 +184,8 @@ void TrackFilm::write(const FilmOptions& options, double period,
   render::FootageOptions wanted;
   wanted.path = options.output;
   wanted.background = options.background;
-  wanted.fps = options.frame_rate ? *options.frame_rate : rate_of(period);
+  const bool has_pictures = !options.background.empty();
+  wanted.fps = has_pictures && options.frame_rate ? *options.frame_rate : rate_of(period);
   if (boxes_) {
     double right = kLeastSide, bottom = kLeastSide;
     for (const auto& moment : seen_) {
@@ -198,6 +212,7 @@ void TrackFilm::write(const FilmOptions& options, double period,
   Playhead tracks(tracks_);
   Playhead seen(seen_);
   std::size_t pictures = 0, drawn = 0;
+  std::deque<render::FootageDetection> past;
   Progress progress("video", "pictures",
                     background.images.value_or(
                         background.moves ? 0
@@ -237,8 +252,9 @@ void TrackFilm::write(const FilmOptions& options, double period,
           frame.detections.push_back({to_pixel(mark.position), pixel_size(mark.size)});
         }
       }
-      frame.caption = fmt::format("{:.2f} s   {} tracks", time - (background.moves ? 0.0 : pace.start),
-                                  frame.tracks.size());
+      if (!background.moves && !boxes_) show_past(frame.detections, past);
+      frame.caption = fmt::format("{:.2f} s · {} {}", time - (background.moves ? 0.0 : pace.start),
+                                  frame.tracks.size(), frame.tracks.size() == 1 ? "track" : "tracks");
       writer.draw(frame);
       ++pictures;
       progress.advance();

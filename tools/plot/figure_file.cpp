@@ -37,12 +37,15 @@ class Layout {
     double y = 0.0;
     int column = 0;
     for (const Panel& panel : figure.panels) {
-      const bool wide = panel.wide && columns_ > 1;
+      // A last panel that would stand alone takes the row.
+      const bool alone = &panel == &figure.panels.back() && column == 0 && !panel.equal_scales &&
+                         figure.panels.size() > 1;
+      const bool wide = (panel.wide || alone) && columns_ > 1;
       if (wide && column > 0) {
         y += kPanelAspect * width;
         column = 0;
       }
-      const double height = kPanelAspect * width * (wide ? kWide : 1.0);
+      const double height = kPanelAspect * width * (wide && !alone ? kWide : 1.0);
       places_.push_back({width * column, y, wide ? style.width : width, height});
       column = wide ? 0 : (column + 1) % columns_;
       if (column == 0) y += height;
@@ -70,7 +73,8 @@ class Layout {
 void draw(cairo_t* cairo, const Figure& figure, const Style& style, const Layout& layout) {
   Canvas canvas(cairo);
   const Palette palette(style.dark);
-  canvas.fill(0.0, 0.0, style.width, layout.height(), palette.ground);
+  canvas.set(palette.ground);
+  cairo_paint(cairo);
   if (!figure.title.empty()) {
     canvas.text(style.font_size * 0.8, style.font_size * 1.5, figure.title, style.font_size * 1.15,
                 palette.ink, Canvas::Align::kLeft, true);

@@ -57,8 +57,7 @@ Panel panel_of(const FilteredSeries& series, const SeriesLabels& labels, const s
   for (const std::string& filter : series.filters) {
     const auto* const values = column(series, filter, name);
     if (values == nullptr) continue;
-    const auto called = labels.filters.find(filter);
-    panel.curves.push_back({.name = called == labels.filters.end() ? filter : called->second,
+    panel.curves.push_back({.name = "",
                             .x = *column(series, filter, "t"),
                             .y = *values,
                             .mark = mark,
@@ -79,7 +78,8 @@ void add_bounds(Panel& panel) {
   }
   if (count == 0) return;
   const double rms = std::sqrt(sum / static_cast<double>(count));
-  panel.levels = {{2.0 * rms, "+ 2 rms"}, {-2.0 * rms, "− 2 rms"}};
+  const std::string whose = panel.curves.size() > 1 ? " of all" : "";
+  panel.levels = {{2.0 * rms, "+ 2 rms" + whose}, {-2.0 * rms, "− 2 rms" + whose}};
 }
 
 /// The panels of one axis; its columns end in `suffix`.
@@ -89,6 +89,10 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
   Panel values = panel_of(series, labels, "estimate" + suffix, labels.value + suffix, "x" + suffix,
                           Mark::kLine);
   values.wide = true;
+  for (std::size_t i = 0; i < values.curves.size(); ++i) {  // the colours are those of all panels
+    const auto called = labels.filters.find(series.filters[i]);
+    values.curves[i].name = called == labels.filters.end() ? series.filters[i] : called->second;
+  }
   const std::vector<double>& t = *column(series, first, "t");
   const auto* const z = column(series, first, "z" + suffix);
   if (z != nullptr && labels.shows_measurements) {

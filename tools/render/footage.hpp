@@ -18,10 +18,10 @@ struct FootageOptions {
   std::filesystem::path path;  // obeys the same rules as VideoOptions::path
   /// A video, a folder of pictures in the order of their numbers, or one picture, such as a map,
   /// that stays. Empty: dark ground.
-  std::filesystem::path background;
+  std::filesystem::path background = {};
   int width = 1280;   // of dark ground [px]
   int height = 720;
-  std::optional<double> fps;  // of pictures and dark ground [Hz]; a video has its own
+  std::optional<double> fps = {};  // of pictures and dark ground [Hz]; a video has its own
   double trail = 2.0;         // how much of a track's past is shown [s]
 };
 
@@ -37,16 +37,17 @@ struct BackgroundInfo {
 struct FootageTrack {
   int id = 0;
   Pixel position;
-  std::optional<Pixel> size;  // of its box
-  std::optional<std::pair<Pixel, Pixel>> residual;  // from where it was expected to where it was seen
-  bool coasting = false;                            // it was not seen
-  std::string label;
+  std::optional<Pixel> size = {};  // of its box
+  std::optional<std::pair<Pixel, Pixel>> residual = {};  // from where expected to where seen
+  bool coasting = false;                                 // it was not seen
+  std::string label = {};
 };
 
 /// What was seen in a picture.
 struct FootageDetection {
   Pixel position;
-  std::optional<Pixel> size;
+  std::optional<Pixel> size = {};
+  bool is_past = false;  // in one before
 };
 
 struct FootageFrame {

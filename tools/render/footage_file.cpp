@@ -74,6 +74,9 @@ class FootagePainter {
                      length(1.0));
       return;
     }
+    if (detection.is_past) {
+      return canvas.disc(detection.position, length(2.2), {dark::kDetection, 0.35});
+    }
     canvas.disc(detection.position, length(4.5), {dark::kPage, 0.5});
     canvas.disc(detection.position, length(3.0), dark::kDetection);
   }
