@@ -81,28 +81,62 @@ struct GeneratedSeries {
   }
 };
 
-/// Measurements that are written out.
+/// Measurements that are written out, here or in a table of their own.
 struct GivenSeries {
   static constexpr std::string_view kind = "given";
-  static constexpr std::string_view about = "measurements that are written out";
+  static constexpr std::string_view about =
+      "measurements that are written out, here or in a table of their own";
 
-  std::vector<double> measurements;
-  std::vector<double> truth;  // as many, or none if the truth is unknown
+  std::vector<double> measurements;  // NaN where the table has none
+  std::vector<double> truth;         // as many, or none if the truth is unknown
+  std::vector<double> times;         // as many, or none if they are evenly spaced [s]
+  std::string file;                  // empty: the measurements are here
+  std::string columns;
+  std::optional<double> frame_rate;
+  bool skip_bad_rows = false;
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.field("measurements", &GivenSeries::measurements,
-            {.meaning = "the measurements in order", .required = true, .min_items = 1});
+    v.field("measurements", &GivenSeries::measurements, {.meaning = "the measurements in order"});
     v.field("truth", &GivenSeries::truth,
             {.meaning = "the true values, as many; without them no errors are computed"});
+    v.field("times", &GivenSeries::times,
+            {.unit = "s",
+             .meaning = "the times of the measurements, as many, in order; without them they are dt "
+                        "apart"});
+    v.field("file", &GivenSeries::file,
+            {.meaning = "a table that has them instead, read as `ghtrack filter` reads it; its place "
+                        "is counted from the scene's folder"});
+    v.field("columns", &GivenSeries::columns,
+            {.meaning = "which of its columns are meant, such as t=Time,z=Height; by default as "
+                        "their names tell"});
+    v.field("frame_rate", &GivenSeries::frame_rate,
+            {.unit = "Hz",
+             .meaning = "images per second, where a column of their numbers stands for the time",
+             .minimum = 1e-6,
+             .maximum = 1e9});
+    v.field("skip_bad_rows", &GivenSeries::skip_bad_rows,
+            {.meaning = "leave out rows of the file that are no data, instead of refusing it"});
   }
 
   template <class Report>
   void check(Report&& report) const {
-    if (!truth.empty() && truth.size() != measurements.size()) {
-      report("truth", "must have as many values as there are measurements: " +
-                          std::to_string(measurements.size()) + ", found " +
-                          std::to_string(truth.size()));
+    if (measurements.empty() == file.empty()) {
+      report("measurements", file.empty() ? "must be there, or `file` that has them"
+                                          : "stand beside `file`; only one of them is allowed");
+    }
+    const auto check_length = [&](const char* key, const std::vector<double>& values) {
+      if (values.empty() || values.size() == measurements.size()) return;
+      report(key, "must have as many values as there are measurements: " +
+                      std::to_string(measurements.size()) + ", found " +
+                      std::to_string(values.size()));
+    };
+    check_length("truth", truth);
+    check_length("times", times);
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      if (times[i] >= times[i - 1]) continue;
+      report("times", "must be in order");
+      break;
     }
   }
 };

@@ -179,5 +179,137 @@ TEST(OwnData, ScoresSeveralSequences) {
   EXPECT_EQ(csv_rows(folder.path() / "m.csv").size(), 21U);
 }
 
+// Property: `filter` reads what `track` reads, and says what it understood.
+TEST(OwnData, FilterReadsTablesAsTrackDoes) {
+  const TemporaryFolder folder;
+  std::string plain = "t,z\n", written = "\xef\xbb\xbf# logger\r\nTime (ms);Height (mm)\r\n";
+  for (int i = 0; i < 30; ++i) {
+    const std::string value = std::to_string(100 + 5 * i);
+    plain += std::to_string(i / 10) + "." + std::to_string(i % 10) + "," + (i == 7 ? "" : "0." + value) + "\n";
+    written += std::to_string(100 * i) + ";" + (i == 7 ? "NA" : value + ",0") + "\r\n";
+  }
+  write(folder.path() / "plain.csv", plain);
+  write(folder.path() / "written.txt", written);
+  const std::string gains = " --g 0.5 --h 0.2 --x0 0.1";
+  const Outcome expected = shell("ghtrack filter plain.csv --t-column t" + gains, folder.path());
+  ASSERT_EQ(expected.exit_code, 0) << expected.err;
+  EXPECT_EQ(expected.err, "");  // nothing had to be understood
+  const Outcome outcome = shell("ghtrack filter written.txt" + gains, folder.path());
+  EXPECT_EQ(outcome.out, expected.out);
+  EXPECT_THAT(outcome.err, HasSubstr("30 rows (semicolons, decimal comma), t (ms) from 'Time (ms)', z "
+                                     "(mm, as m) from 'Height (mm)'; 1 rows without a measurement"));
+  EXPECT_EQ(shell("ghtrack -q filter written.txt" + gains, folder.path()).err, "");
+  EXPECT_EQ(shell("ghtrack filter written.txt --columns 't=Time (ms),z=2'" + gains, folder.path()).out,
+            expected.out);
+  EXPECT_EQ(shell("cat written.txt | ghtrack filter -q" + gains, folder.path()).out, expected.out);
+}
+
+// Property: a series scene reads the same file, from its own folder; what it writes runs alone.
+TEST(OwnData, SeriesSceneReadsAFile) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "scenes");
+  std::string table = "Time (s);Height (m);truth\n";
+  for (int i = 0; i < 20; ++i) {
+    table += std::to_string(i / 2) + (i % 2 == 0 ? ",0;" : ",5;") + (i == 4 ? "-" : std::to_string(3 + i)) + ";" +
+             std::to_string(3 + i) + "\n";
+  }
+  write(folder.path() / "scenes" / "height.txt", table);
+  write(folder.path() / "scenes" / "height.yaml",
+        "kind: series\ngiven: {file: height.txt}\nfilters: [{name: a, x0: 2, dx0: 2, g: 0.4, h: 0.1}]\n");
+  const Outcome outcome = shell("ghtrack run scenes/height.yaml --plots -o out", folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("20 rows (semicolons, decimal comma)"));
+  const auto rows = csv_rows(folder.path() / "out" / "series.csv");
+  ASSERT_EQ(rows.size(), 21U);
+  EXPECT_EQ(rows[4][2], "1.5");  // t
+  EXPECT_EQ(rows[5][3], "");     // z
+  EXPECT_THAT(contents(folder.path() / "out" / "plots.svg"), HasSubstr("<svg"));
+  fs::remove_all(folder.path() / "scenes");
+  ASSERT_EQ(shell("ghtrack run out/scene.yaml -q -o again", folder.path()).exit_code, 0);
+  for (const char* name : {"scene.yaml", "series.csv", "metrics.json", "measurements.csv", "plot.png"}) {
+    EXPECT_EQ(contents(folder.path() / "again" / name), contents(folder.path() / "out" / name)) << name;
+  }
+  const Outcome filtered = shell(
+      "ghtrack filter out/measurements.csv --t-column t --g 0.4 --h 0.1 --x0 2 --dx0 2 -q", folder.path());
+  write(folder.path() / "filtered.csv", filtered.out);
+  const auto filter_rows = csv_rows(folder.path() / "filtered.csv");
+  EXPECT_EQ(filter_rows.back()[6], rows.back()[7]);  // x
+}
+
+// Property: a scene whose file is missing or wrong is refused by `check`, too.
+TEST(OwnData, CheckReadsTheFileOfASeries) {
+  const TemporaryFolder folder;
+  write(folder.path() / "s.yaml",
+        "kind: series\ngiven: {file: d.csv}\nfilters: [{name: a, g: 0.4, h: 0.1}]\n");
+  const Outcome missing = shell("ghtrack check s.yaml", folder.path());
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("d.csv"));
+  write(folder.path() / "d.csv", "z\n1\noops\n");
+  EXPECT_THAT(shell("ghtrack check s.yaml", folder.path()).err, HasSubstr("d.csv:3:1: error: 'oops'"));
+}
+
+// Property: the matches of a run are those that `score` finds in its files.
+TEST(OwnData, RunWritesMatchesAndPlots) {
+  const TemporaryFolder folder;
+  const std::string scene = scene_file("three_regimes.yaml").string();
+  ASSERT_EQ(shell("ghtrack run " + scene + " --duration 4 --no-video -q --matches --plots -o run",
+                  folder.path())
+                .exit_code,
+            0);
+  ASSERT_EQ(shell("ghtrack score --truth run --tracks run -q --matches m.csv", folder.path()).exit_code, 0);
+  EXPECT_EQ(contents(folder.path() / "run" / "matches.csv"), contents(folder.path() / "m.csv"));
+  EXPECT_THAT(contents(folder.path() / "run" / "plots.svg"), HasSubstr("<svg"));
+  const auto tracks = csv_rows(folder.path() / "run" / "tracks.csv");
+  EXPECT_EQ(tracks.front().back(), "s_y");
+}
+
+// Property: own data become a film: over pictures of a sequence, and on dark ground.
+TEST(OwnData, TracksAreFilmed) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(shell("ghtrack video " + scene_file("throwing.yaml").string() +
+                      " --size 320x180 --fps 10 --to 1 -q -o img1/",
+                  folder.path())
+                .exit_code,
+            0);
+  fs::create_directories(folder.path() / "street" / "det");
+  fs::rename(folder.path() / "img1", folder.path() / "street" / "img1");
+  std::string boxes;
+  for (int frame = 1; frame <= 10; ++frame) {
+    boxes += std::to_string(frame) + ",-1," + std::to_string(20 + 4 * frame) + ",60,40,90,0.9,-1,-1,-1\n";
+  }
+  write(folder.path() / "street" / "det" / "det.txt", boxes);
+  const Outcome sequence =
+      shell("ghtrack track street --frame-rate 10 -o tracks.txt --video street.mp4", folder.path());
+  ASSERT_EQ(sequence.exit_code, 0) << sequence.err;
+  EXPECT_THAT(sequence.err, HasSubstr("street.mp4: 10 pictures of 320x180 at 10 Hz"));
+  EXPECT_GT(fs::file_size(folder.path() / "street.mp4"), 2000U);
+  const std::string walk = (fs::path(GHTRACK_SOURCE_DIR) / "tools/data/examples/walk.csv").string();
+  const Outcome points = shell("ghtrack track " + walk + " -o walk.csv --video walk.png", folder.path());
+  ASSERT_EQ(points.exit_code, 0) << points.err;
+  EXPECT_THAT(points.err, HasSubstr("times as fast"));
+  const Outcome late = shell("ghtrack track " + walk +
+                                 " -o w.csv --video late.mp4 --background street.mp4 --video-start 0",
+                             folder.path());
+  EXPECT_THAT(late.err, HasSubstr("no picture shows a track"));
+}
+
+// Property: labels of KITTI come in, and tracks go out as such.
+TEST(OwnData, ReadsAndWritesLabelsOfKitti) {
+  const TemporaryFolder folder;
+  std::string labels;
+  for (int frame = 0; frame < 20; ++frame) {
+    const double left = 100.0 + 3.0 * frame;
+    labels += std::to_string(frame) + " 4 Car 0 0 -1.5 " + std::to_string(left) + " 150 " +
+              std::to_string(left + 80.0) + " 210 1.5 1.6 3.9 2 1.5 20 -1.6\n";
+  }
+  write(folder.path() / "labels.txt", labels);
+  const Outcome tracked = shell("ghtrack track labels.txt -o tracks.txt", folder.path());
+  ASSERT_EQ(tracked.exit_code, 0) << tracked.err;
+  EXPECT_THAT(contents(folder.path() / "tracks.txt"), HasSubstr(" Car -1 -1 -10 "));
+  const Outcome scored = shell("ghtrack score --truth labels.txt --tracks labels.txt --json", folder.path());
+  EXPECT_EQ(nlohmann::json::parse(scored.out).at("mota"), 1.0);
+  EXPECT_THAT(scored.err, HasSubstr("KITTI"));
+}
+
 }  // namespace
 }  // namespace ghtrack::testing

@@ -1,5 +1,6 @@
 """Scenes, runs and tracks in Python are those of the program."""
 
+import json
 import pathlib
 import subprocess
 import sys
@@ -43,10 +44,41 @@ def test_a_run_is_the_programs(tmp_path):
     assert "RMSE" in run._repr_html_()
 
 
+# Property: a run in this process has the bits of the program's files, and the same columns.
+@pytest.mark.parametrize("scene", ["three_regimes.yaml", "sensors/crossing.yaml"])
+def test_a_run_here_is_the_programs(tmp_path, scene):
+    here = ghtrack.run(SCENES / scene, seed=5, duration=3)
+    program("run", SCENES / scene, "--no-video", "--seed", 5, "--duration", 3, "-o", tmp_path / "run")
+    for name in ("truth", "detections", "origins", "tracks"):
+        theirs = ghtrack.Table.from_csv((tmp_path / "run" / f"{name}.csv").read_text())
+        ours = getattr(here, name)
+        assert ours.columns == theirs.columns
+        for column in theirs.columns:
+            assert_array_equal(ours[column], theirs[column], err_msg=f"{name} {column}")
+    assert here.metrics == json.loads((tmp_path / "run" / "metrics.json").read_text())
+    assert (here.folder / "tracks.csv").read_bytes() == (tmp_path / "run" / "tracks.csv").read_bytes()
+    assert here.truth.x.base is not None  # it shares the memory of the run
+    assert here.plot(panels="path")._repr_png_().startswith(b"\x89PNG")
+
+
+# Property: a series reads its file as `ghtrack filter` does, from wherever the scene is.
+def test_a_series_names_a_file(tmp_path):
+    rows = "\n".join(f"{0.5 * k};{3 + k},25" for k in range(20))
+    (tmp_path / "height.txt").write_text("Time (s);Height (m)\n" + rows + "\n")
+    scene = {
+        "kind": "series",
+        "name": "height",
+        "given": {"file": str(tmp_path / "height.txt")},
+        "filters": [{"name": "a", "x0": 3, "dx0": 2, "g": 0.4, "h": 0.1}],
+    }
+    run = ghtrack.run(scene)
+    assert_array_equal(run.series.t, 0.5 * np.arange(20))
+    assert run.series.z[3] == 6.25
+    assert run.plot()._repr_png_().startswith(b"\x89PNG")
+
+
 # Property: path, text and dict say the same.
 def test_a_scene_is_a_path_a_text_or_a_dict(tmp_path):
-    import json
-
     file = tmp_path / "scene.yaml"
     file.write_text(json.dumps(SMALL))
     runs = [ghtrack.run(source) for source in (file, str(file), json.dumps(SMALL, indent=1), SMALL)]

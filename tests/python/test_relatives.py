@@ -6,10 +6,12 @@ from numpy.testing import assert_allclose, assert_array_equal
 from reference import cases, name_of
 
 from ghtrack import discrete_bayes, kalman, stats
-from ghtrack.common import Saver
+from ghtrack.common import Q_discrete_white_noise, Saver
 from ghtrack.gh import GHKFilter
+from ghtrack.kalman import KalmanFilter, batch_filter
 from ghtrack.leastsq import LeastSquaresFilter
 from ghtrack.memory import FadingMemoryFilter
+from ghtrack.stats import gaussian, logpdf, mahalanobis, multivariate_gaussian, norm_cdf
 
 
 def close(measured, expected, tolerance=1e-11):
@@ -213,3 +215,48 @@ def test_a_saver_reads_properties_first_and_keeps_lists_where_shapes_change():
     saver["value"] = [1, np.zeros(3)]
     with pytest.raises(ValueError, match="value"):
         saver.to_array()
+
+
+# Derived: 68, 95 and 99.7 per cent lie within one, two and three sigmas.
+def test_probability_between_two_values():
+    for sigmas, share in ((1, 0.682689492), (2, 0.954499736), (3, 0.997300204)):
+        assert norm_cdf((5 - 3 * sigmas, 5 + 3 * sigmas), 5, 9) == pytest.approx(share, abs=1e-9)
+        assert norm_cdf((5 + 3 * sigmas, 5), 5, std=3) == pytest.approx(share / 2, abs=1e-9)
+
+
+# Derived: ln N(x; m, C) = -(d' C^-1 d + ln det 2 pi C) / 2, and the distance is the root of d' C^-1 d.
+def test_densities_and_distances_over_several_variables():
+    x, mean, cov = [1.0, 2.0], [1.5, 1.0], np.array([[2.0, 0.5], [0.5, 1.0]])
+    d = np.subtract(x, mean)
+    square = d @ np.linalg.inv(cov) @ d
+    assert mahalanobis(x, mean, cov) == pytest.approx(np.sqrt(square))
+    expected = -0.5 * (square + np.log(np.linalg.det(2 * np.pi * cov)))
+    assert logpdf(x, mean, cov) == pytest.approx(expected)
+    assert multivariate_gaussian(x, mean, cov) == pytest.approx(np.exp(expected))
+    assert multivariate_gaussian(1.0, 0.0, 4.0) == pytest.approx(gaussian(1.0, 0.0, 4.0))
+    with pytest.raises(np.linalg.LinAlgError):
+        logpdf(1.0, 1.0, -1.0)
+
+
+# Derived: the noise enters position and rate as dt²/2 and dt.
+def test_noise_of_a_model():
+    assert_allclose(Q_discrete_white_noise(2, dt=0.5, var=4.0), 4.0 * np.outer([0.125, 0.5], [0.125, 0.5]))
+    by_dim = Q_discrete_white_noise(3, dt=0.5, block_size=2)
+    by_order = Q_discrete_white_noise(3, dt=0.5, block_size=2, order_by_dim=False)
+    order = [0, 3, 1, 4, 2, 5]
+    assert_allclose(by_order, by_dim[np.ix_(order, order)])
+
+
+# Property: a batch is the filter step by step, missed measurements included.
+@pytest.mark.parametrize("update_first", [False, True])
+def test_a_batch_of_the_kalman_filter_is_its_steps(update_first):
+    kf = KalmanFilter(2, 1)
+    kf.F, kf.H, kf.Q, kf.R = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([[1.0, 0.0]]), 0.1 * np.eye(2), 2.0
+    zs = [1.0, None, 2.5, 2.0, 4.0]
+    x, P = kf.x.copy(), kf.P.copy()
+    n = len(zs)
+    whole = batch_filter(x, P, zs, [kf.F] * n, [kf.Q] * n, [kf.H] * n, [kf.R] * n, update_first=update_first)
+    for ours, theirs in zip(whole, kf.batch_filter(zs, update_first=update_first)):
+        assert_allclose(ours, theirs)
+    assert whole[0].shape == (n, 2, 1)
+    assert kf.mahalanobis == pytest.approx(mahalanobis(np.zeros(1), kf.y, kf.S))

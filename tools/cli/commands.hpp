@@ -37,6 +37,8 @@ struct RunOptions {
   bool compare = false;       // the video shows the filters under `compare`, on the same run
   bool smooth = false;        // tracks.csv says, too, what is known afterwards
   bool page = false;          // also write page.html
+  bool matches = false;       // write matches.csv
+  bool plots = false;         // write plots.svg
 
   /// What chose one of the scenes.
   SceneOptions scene_of(std::size_t index) const {
@@ -85,6 +87,13 @@ struct ViewOptions {
   bool stay = false;   // no browser is opened
 };
 
+/// How somebody else's tables are to be read.
+struct DataOptions {
+  std::string columns;  // t=NAME,x=NAME,…; empty: by their names
+  std::optional<double> frame_rate;
+  bool skip_bad_rows = false;
+};
+
 struct FilterCommandOptions {
   std::string file = "-";  // series, or - for standard input
   std::string filter = "gh";  // a name, or a configuration as in a scene
@@ -94,7 +103,8 @@ struct FilterCommandOptions {
   std::optional<int> order;
   std::optional<double> dt;      // [s]; of the times, or 1
   std::optional<double> period;  // of angles
-  std::string t_column;          // empty: rows are dt apart
+  std::string t_column;          // of the times; empty: as its name tells, unless there is a dt
+  DataOptions data;
   bool json = false;
 };
 
@@ -109,13 +119,6 @@ struct GainsCommandOptions {
   bool json = false;
 };
 
-/// How somebody else's tables are to be read.
-struct DataOptions {
-  std::string columns;  // t=NAME,x=NAME,…; empty: by their names
-  std::optional<double> frame_rate;
-  bool skip_bad_rows = false;
-};
-
 struct PlotOptions {
   std::string source;  // folder of a run, tracks, or a series
   std::string output;  // file ending in svg, pdf or png
@@ -127,6 +130,17 @@ struct PlotOptions {
   bool dark = false;
 };
 
+/// A video of tracks over what they were seen in.
+struct FilmOptions {
+  std::string output;                   // empty: none
+  std::string background;               // video, folder of pictures, or a map; empty: dark ground
+  std::vector<std::string> homography;  // four times X,Y=U,V; none: data are pixels
+  std::optional<double> start;          // time of the data at the first picture [s]
+  // What the data say of their pictures:
+  std::optional<double> frame_rate;     // [Hz]
+  std::optional<int> width, height;     // [px]
+};
+
 struct TrackOptions {
   std::vector<std::string> detections;  // files, or MOTChallenge sequence folders
   DataOptions data;
@@ -136,6 +150,8 @@ struct TrackOptions {
   bool online = false;            // learn from what has been seen so far only
   std::string save_config;        // where to write what was used; empty: nowhere
   std::string output;             // empty: standard output
+  bool plots = false;             // also draw them, beside the output
+  FilmOptions film;
   std::string evaluation_folder;  // for public evaluation kits; empty: none
   std::string benchmark = "MOT15", split = "train", tracker_name = "ghtrack";
   bool timings = false;

@@ -20,7 +20,12 @@ void tell_what_was_read(const std::string& understood, std::int64_t left_out,
                         const std::vector<std::string>& remarks, const Manners& manners) {
   if (manners.quiet) return;
   tell("ghtrack: {}", understood);
-  if (left_out == 0) return;
+  tell_what_was_left_out(left_out, remarks, manners);
+}
+
+void tell_what_was_left_out(std::int64_t left_out, const std::vector<std::string>& remarks,
+                            const Manners& manners) {
+  if (manners.quiet || left_out == 0) return;
   tell("ghtrack: warning: left out {} bad rows{}", left_out,
        left_out > static_cast<std::int64_t>(remarks.size()) ? ", the first of them:" : ":");
   for (const std::string& remark : remarks) tell("  {}", remark);

@@ -13,5 +13,7 @@ ReadOptions read_options(const DataOptions& options);
 void tell_what_was_read(const DataSummary& summary, const Manners& manners);
 void tell_what_was_read(const std::string& understood, std::int64_t left_out,
                         const std::vector<std::string>& remarks, const Manners& manners);
+void tell_what_was_left_out(std::int64_t left_out, const std::vector<std::string>& remarks,
+                            const Manners& manners);
 
 }  // namespace ghtrack::cli

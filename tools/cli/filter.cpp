@@ -12,11 +12,12 @@
 #include <vector>
 
 #include "tools/cli/commands.hpp"
+#include "tools/cli/data_source.hpp"
 #include "tools/cli/interruption.hpp"
-#include "tools/cli/number_table.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/series_filter.hpp"
-#include "tools/cli/series_rows.hpp"
 #include "tools/cli/usage_error.hpp"
+#include "tools/data/series_reader.hpp"
 #include "tools/record/csv_writer.hpp"
 #include "tools/record/errors.hpp"
 #include "tracker/filters/gains/analysis.hpp"
@@ -101,15 +102,12 @@ class Output {
   std::string text_;
 };
 
-/// Carries a row's values, all of one kind, axis by axis.
-using Axes = std::vector<double>;
-
 class Session {
  public:
-  Session(NumberTable& table, const FilterCommandOptions& options, bool quiet)
+  Session(SeriesReader& rows, const FilterCommandOptions& options, const Manners& manners)
       : options_(options),
-        quiet_(quiet),
-        rows_(table, options.t_column),
+        manners_(manners),
+        rows_(rows),
         plan_(options, rows_.axes(), rows_.has_times()),
         step_(options.dt ? *options.dt : rows_.typical_step().value_or(1.0)),
         filter_(options, plan_, step_) {
@@ -124,21 +122,22 @@ class Session {
     while (const std::optional<MeasuredRow> row = rows_.next()) {
       if (row->number % 4096 == 0) stop_if_interrupted();
       process(*row);
-      say(rows_.take_remarks());
+      say(rows_.take_warnings());
     }
-    say(rows_.take_remarks());
+    say(rows_.take_warnings());
+    tell_what_was_left_out(rows_.left_out(), rows_.remarks(), manners_);
     if (options_.json) {
       fmt::print("{}\n", errors_.json().dump());
     } else {
       output_.flush();
-      if (!quiet_ && errors_.knows_truth()) fmt::print(stderr, "{}\n", errors_.json().dump());
+      if (!manners_.quiet && errors_.knows_truth()) tell("{}", errors_.json().dump());
     }
     const Refusals refusals = filter_.refusals();
-    if (!quiet_ && refusals.times + refusals.measurements > 0) {
-      fmt::print(stderr,
-                 "ghtrack: warning: refused {} time steps that are not positive and finite and {} "
-                 "measurements that are not finite\n",
-                 refusals.times, refusals.measurements);
+    if (!manners_.quiet && refusals.times + refusals.measurements > 0) {
+      tell(
+          "ghtrack: warning: refused {} time steps that are not positive and finite and {} "
+          "measurements that are not finite",
+          refusals.times, refusals.measurements);
     }
   }
 
@@ -146,26 +145,26 @@ class Session {
   /// What the filter says of one moment, and what it was told.
   struct Moment {
     std::vector<Kinematics<1>> prior, posterior;
-    std::optional<Axes> z, residual;
+    std::optional<AxisVector> z, residual;
   };
 
   void warn_of_unstable_gains() const {
     const auto violated = filter_.gains() ? violated_inequality(*filter_.gains()) : std::nullopt;
-    if (!violated || quiet_) return;
-    fmt::print(stderr, "ghtrack: warning: these gains are unstable: {} does not hold\n", *violated);
+    if (!violated || manners_.quiet) return;
+    tell("ghtrack: warning: these gains are unstable: {} does not hold", *violated);
   }
 
-  void say(const std::vector<std::string>& remarks) const {
-    if (quiet_) return;
-    for (const std::string& remark : remarks) fmt::print(stderr, "{}\n", remark);
+  void say(const std::vector<std::string>& warnings) const {
+    if (manners_.quiet) return;
+    for (const std::string& warning : warnings) tell("{}", warning);
   }
 
   /// Goes on to the time of the row. @returns the time since the row before [s]
   double elapse(const MeasuredRow& row) {
-    if (row.t) {
-      const double dt = is_first_ ? step_ : *row.t - time_;
+    if (row.time) {
+      const double dt = is_first_ ? step_ : *row.time - time_;
       is_first_ = false;
-      time_ = *row.t;
+      time_ = *row.time;
       return dt;
     }
     even_ = even_ && !row.dt;
@@ -189,13 +188,24 @@ class Session {
     return options_.period ? to + std::remainder(value - to, *options_.period) : value;
   }
 
+  AxisVector near(const AxisVector& values, const AxisVector& to) const {
+    AxisVector result = values;
+    for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = near(values[i], to[i]);
+    return result;
+  }
+
+  static AxisVector positions(const std::vector<Kinematics<1>>& states) {
+    AxisVector result(static_cast<Eigen::Index>(states.size()));
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      result[static_cast<Eigen::Index>(i)] = states[i].position[0];
+    }
+    return result;
+  }
+
   void process(const MeasuredRow& row) {
     const double dt = elapse(row);
     Moment moment;
-    if (row.is_measured()) {
-      moment.z.emplace();
-      for (const auto& value : row.z) moment.z->push_back(*value);
-    }
+    moment.z = row.z;
     if (filter_.is_started()) {
       step(row, dt, moment);
     } else if (moment.z) {
@@ -208,25 +218,19 @@ class Session {
   void start(const MeasuredRow& row, Moment& moment) {
     filter_.start(row);
     moment.prior = moment.posterior = estimates();
-    if (quiet_) return;
-    fmt::print(stderr,
-               "ghtrack: there is no --x0, so the filter starts at the measurement of row {}\n",
-               row.number);
+    if (manners_.quiet) return;
+    tell("ghtrack: there is no --x0, so the filter starts at the measurement of row {}",
+         row.number);
   }
 
   void step(const MeasuredRow& row, double dt, Moment& moment) {
     // A second measurement at the same time corrects without a step.
-    const bool moved = (row.t && dt == 0.0) || filter_.predict(dt);
+    const bool moved = (row.time && dt == 0.0) || filter_.predict(dt);
     moment.prior = estimates();
     if (moment.z && moved) {
-      Axes z = *moment.z;
-      for (std::size_t i = 0; i < z.size(); ++i) z[i] = near(z[i], moment.prior[i].position[0]);
-      if (filter_.update(z, row)) {
-        moment.residual.emplace();
-        for (std::size_t i = 0; i < z.size(); ++i) {
-          moment.residual->push_back(z[i] - moment.prior[i].position[0]);
-        }
-      }
+      const AxisVector prior = positions(moment.prior);
+      const AxisVector z = near(*moment.z, prior);
+      if (filter_.update(z, row)) moment.residual = z - prior;
     }
     moment.posterior = estimates();
   }
@@ -237,14 +241,15 @@ class Session {
         all.empty() ? output_.empty() : output_.number(part(all[i], i));
       }
     };
-    const auto axes = [&](const std::optional<Axes>& values) {
-      for (std::size_t i = 0; i < rows_.axes(); ++i) {
+    const auto axes = [&](const std::optional<AxisVector>& values) {
+      for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(rows_.axes()); ++i) {
         values ? output_.number((*values)[i]) : output_.empty();
       }
     };
     // Angles are written on the turn of what was measured.
     const auto position = [&](const Kinematics<1>& state, std::size_t i) {
-      return near(state.position[0], moment.z ? (*moment.z)[i] : state.position[0]);
+      return near(state.position[0],
+                  moment.z ? (*moment.z)[static_cast<Eigen::Index>(i)] : state.position[0]);
     };
     const auto velocity = [](const Kinematics<1>& state, std::size_t) { return state.velocity[0]; };
     const auto acceleration = [](const Kinematics<1>& state, std::size_t) {
@@ -266,31 +271,19 @@ class Session {
   }
 
   void account(const MeasuredRow& row, const Moment& moment) {
-    const auto length = [](const Axes& values) {
-      double squares = 0.0;
-      for (const double value : values) squares += value * value;
-      return std::sqrt(squares);
-    };
     errors_.add_row();
-    if (moment.residual) errors_.add_innovation(length(*moment.residual));
-    Axes error, measurement_error;
-    for (std::size_t i = 0; i < row.truth.size(); ++i) {
-      if (!row.truth[i]) return;
-      const double truth = *row.truth[i];
-      if (!moment.posterior.empty()) {
-        error.push_back(near(moment.posterior[i].position[0], truth) - truth);
-      }
-      if (moment.z) measurement_error.push_back(near((*moment.z)[i], truth) - truth);
-    }
-    if (!error.empty()) errors_.add_error(std::pow(length(error), 2));
-    if (!measurement_error.empty()) {
-      errors_.add_measurement_error(std::pow(length(measurement_error), 2));
-    }
+    if (moment.residual) errors_.add_innovation(moment.residual->norm());
+    if (!row.truth) return;
+    const auto squared_error = [&](const AxisVector& position) {
+      return (near(position, *row.truth) - *row.truth).squaredNorm();
+    };
+    if (!moment.posterior.empty()) errors_.add_error(squared_error(positions(moment.posterior)));
+    if (moment.z) errors_.add_measurement_error(squared_error(*moment.z));
   }
 
   const FilterCommandOptions& options_;
-  bool quiet_;
-  SeriesRows rows_;
+  const Manners& manners_;
+  SeriesReader& rows_;
   FilterPlan plan_;
   double step_;  // nominal, between rows [s]
   AxisFilters filter_;
@@ -304,8 +297,15 @@ class Session {
 }  // namespace
 
 int filter(const FilterCommandOptions& options, const Manners& manners) {
-  NumberTable table(options.file);
-  Session(table, options, manners.quiet).run();
+  ReadOptions reading = read_options(options.data);
+  reading.time_column = options.t_column;
+  SeriesReader rows(options.file, reading,
+                    options.dt ? SeriesTimes::kIfAsked : SeriesTimes::kIfThere);
+  const bool times_were_found = rows.has_times() && options.t_column.empty();
+  if (!manners.quiet && (times_were_found || !rows.is_plain())) {
+    tell("ghtrack: {}", rows.understood());
+  }
+  Session(rows, options, manners).run();
   return 0;
 }
 

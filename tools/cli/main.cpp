@@ -162,6 +162,11 @@ void add_run(CLI::App& app, RunOptions& options) {
                    "x_smooth, y_smooth, vx_smooth and so on");
   command.add_flag("--page", options.page,
                    "also write page.html, on which the scene can be played with in a browser");
+  command.add_flag("--matches", options.matches,
+                   "write matches.csv: which track GOSPA assigns to which object, row by row");
+  command.add_flag("--plots", options.plots,
+                   "write plots.svg, and for it the columns s_x and s_y of tracks.csv, the errors "
+                   "that are expected of residuals");
   command.footer(
       "Examples:\n"
       "  ghtrack run scenes/three_regimes.yaml\n"
@@ -277,13 +282,24 @@ void add_check(CLI::App& app, SceneOptions& options) {
   command.footer("Examples:\n  ghtrack check scenes/*.yaml");
 }
 
+void add_data_options(CLI::App& command, DataOptions& options) {
+  command.add_option("--columns", options.columns,
+                     "which columns to read, where their names do not tell: "
+                     "t=NAME,x=NAME,y=NAME, also z, sensor, class, sigma …; by name or number");
+  add_number(command, "--frame-rate", options.frame_rate, {.least = 1e-6, .most = 1e9},
+             "images per second, where a column of their numbers stands for the time [Hz]");
+  command.add_flag("--skip-bad-rows", options.skip_bad_rows,
+                   "leave out rows that are no data, and say which, instead of refusing the file");
+}
+
 void add_filter(CLI::App& app, FilterCommandOptions& options) {
   CLI::App& command = *app.add_subcommand("filter", "Filter a series of measurements");
   command
       .add_option("SERIES", options.file,
-                  "CSV with a column z (or zx,zy[,zz]), or one number a line; - reads standard "
-                  "input")
+                  "CSV with a column z (or zx,zy[,zz]; x,y; lat,lon; another by its name), or one "
+                  "number a line; - reads standard input")
       ->capture_default_str();
+  add_data_options(command, options.data);
   command
       .add_option("--filter", options.filter,
                   "gh, ghk, order0, least-squares, fading-memory, benedict-bordner, kalman-cv, "
@@ -307,9 +323,11 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
   command.add_option("--dx0", options.dx0, "initial rate");
   command.add_option("--ddx0", options.ddx0, "initial acceleration");
   add_number(command, "--dt", options.dt, kDuration,
-             "time between rows (default: 1); with --t-column the time between rows that gains are "
-             "meant for (default: the median)");
-  command.add_option("--t-column", options.t_column, "column that holds the time of each row");
+             "time between rows (default: as the times say, or 1); with --t-column the time between "
+             "rows that gains are meant for (default: the median)");
+  command.add_option("--t-column", options.t_column,
+                     "column that holds the time of each row, also with --dt (default: as its name "
+                     "tells)");
   add_number(command, "--period", options.period, kPositive,
              "of angles, such as 360: residuals are taken the short way round");
   command.add_flag("--json", options.json, "print only n, rmse, mai and measurement_rmse");
@@ -356,24 +374,15 @@ void add_gains(CLI::App& app, GainsCommandOptions& options) {
       "  ghtrack gains tracking-index --index 0.5 --order 2");
 }
 
-void add_data_options(CLI::App& command, DataOptions& options) {
-  command.add_option("--columns", options.columns,
-                     "which columns to read, where their names do not tell: "
-                     "t=NAME,x=NAME,y=NAME, also sensor, class, sigma …; by name or number");
-  add_number(command, "--frame-rate", options.frame_rate, {.least = 1e-6, .most = 1e9},
-             "images per second, where a column of their numbers stands for the time [Hz]");
-  command.add_flag("--skip-bad-rows", options.skip_bad_rows,
-                   "leave out rows that are no data, and say which, instead of refusing the file");
-}
-
 void add_track(CLI::App& app, TrackOptions& options) {
   CLI::App& command = *app.add_subcommand("track", "Track the detections of files");
   command
       .add_option("DETECTIONS", options.detections,
-                  "CSV t,x,y; a MOTChallenge det.txt; a sequence folder with det/det.txt")
+                  "CSV t,x,y; GPX or GeoJSON; a MOTChallenge det.txt; a sequence folder with "
+                  "det/det.txt; labels of KITTI")
       ->required();
   command
-      .add_option("--format", options.format, "csv, mot, or auto: mot if there is no header row")
+      .add_option("--format", options.format, "csv, mot, kitti, or auto: as the first line shows")
       ->capture_default_str();
   command.add_option("--config", options.config,
                      "YAML file; `ghtrack reference --track` lists its keys");
@@ -387,6 +396,19 @@ void add_track(CLI::App& app, TrackOptions& options) {
                    "for data in degrees: also write the columns lat and lon");
   command.add_option("-o,--output", options.output,
                      "file, or folder for several sequences (default: standard output)");
+  command.add_flag("--plots", options.plots,
+                   "also draw the tracks, into an .svg of the output's name; of points");
+  command.add_option("--video", options.film.output,
+                     "also film the tracks: a file as `ghtrack video` writes it");
+  command.add_option("--background", options.film.background,
+                     "what the video shows them over: a video, a folder of pictures, or a picture, "
+                     "such as a map (default: img1 of a sequence, else dark ground)");
+  add_repeated(command, "--homography", options.film.homography,
+               "X,Y=U,V: a place and the pixel of the background that shows it, four times; LAT,LON "
+               "for data in degrees (default: the data are pixels)");
+  add_number(command, "--video-start", options.film.start, kAny,
+             "time of the data at the first picture of the background [s] (default: 0, or the first "
+             "where they do not count from there)");
   command.add_option("--evaluation-folder", options.evaluation_folder,
                      "also write truth and results in the layout of TrackEval");
   command.add_option("--benchmark", options.benchmark, "its name there")->capture_default_str();
@@ -413,7 +435,7 @@ void add_score(CLI::App& app, ScoreOptions& options) {
                   "CSV t,track_id,x,y; MOTChallenge rows; or a folder of these; as many")
       ->required();
   command
-      .add_option("--format", options.format, "csv, mot, or auto: mot if there is no header row")
+      .add_option("--format", options.format, "csv, mot, kitti, or auto: as the first line shows")
       ->capture_default_str();
   add_data_options(command, options.data);
   add_number(command, "--gospa-c", options.gospa_c, kPositive,

@@ -42,13 +42,13 @@ plot::Figure figure_of(const PlotOptions& options) {
   std::error_code ignored;
   const bool is_run = fs::is_directory(source, ignored);
   if (is_run && is_there(source / "series.csv")) {
-    return plot::figure_of_series((source / "series.csv").string(), options.title);
+    return plot::figure_of_series((source / "series.csv").string(), {.title = options.title});
   }
   if (is_run && !is_there(source / "tracks.csv")) {
     throw InputError(source.string() + ": error: the folder holds neither tracks.csv nor series.csv");
   }
   if (!is_run && !looks_like_mot_file(source) && plot::is_series_file(source.string())) {
-    return plot::figure_of_series(source.string(), options.title);
+    return plot::figure_of_series(source.string(), {.title = options.title});
   }
   plot::TrackPlot tracks{.tracks = (is_run ? source / "tracks.csv" : source).string(),
                          .truth = options.truth,

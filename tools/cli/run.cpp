@@ -23,8 +23,11 @@
 #include "tools/cli/video_look.hpp"
 #include "tools/film/film.hpp"
 #include "tools/film/scene_drawing.hpp"
+#include "tools/metrics/match_writer.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/record/atomic_file.hpp"
+#include "tools/plot/figure_file.hpp"
+#include "tools/plot/track_figure.hpp"
 #include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
 #include "tools/run/run.hpp"
@@ -72,6 +75,19 @@ void warn_of_displacements(const TruthSource& truth) {
   }
 }
 
+/// Draws the tracks of the run beside its truth and detections.
+void write_plots(const fs::path& folder, const RunMetricsOptions& scoring,
+                 const std::string& title) {
+  const plot::Figure figure = plot::figure_of({.tracks = (folder / "tracks.csv").string(),
+                                               .truth = (folder / "truth.csv").string(),
+                                               .detections = (folder / "detections.csv").string(),
+                                               .panels = {},
+                                               .cutoff = scoring.gospa().cutoff,
+                                               .title = title,
+                                               .reading = {}});
+  plot::write_figure(folder / "plots.svg", figure, {});
+}
+
 /// A scene on its way to files: its truth, its sensors, who follows, and who listens. All files
 /// appear under their names when all are complete; what an interrupted run has done so far is kept
 /// in partial files.
@@ -98,9 +114,14 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   const std::vector<double> frames = film ? film->frame_times() : std::vector<double>{};
 
   RunWatch watch(frames.size(), manners.quiet);
-  RunWriter files(folder, objects, sensor_names(scene));
-  RunMetrics metrics(objects, scoring_for(traits_of(scene.sensors)));
+  const TrackColumns columns = options.plots ? innovation_columns() : TrackColumns();
+  RunWriter files(folder, objects, sensor_names(scene), columns);
+  const RunMetricsOptions scoring = scoring_for(traits_of(scene.sensors));
+  RunMetrics metrics(objects, scoring);
+  std::optional<RunMatches> matches;
+  if (options.matches) matches.emplace(folder / "matches.csv", scoring.gospa());
   RunObservers observers = {&watch, &files, &metrics};
+  if (matches) observers.push_back(&*matches);
   if (film) observers.push_back(&*film);
   std::optional<HistoryObserver> history;
   if (options.smooth) observers.push_back(&history.emplace(contenders.front().tracker.design()));
@@ -113,6 +134,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
     nlohmann::ordered_json so_far = to_json(metrics.report());
     so_far["partial"] = true;
     write_partial_file(folder / "metrics.json", so_far.dump(2) + "\n");
+    if (matches) matches->keep_partial();
     if (film) film->writer().keep_partial();
     results.keep_partial();
     interrupted.remark = fmt::format("{} holds what was done so far, in files named .partial",
@@ -128,7 +150,9 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   write_json(report, [&](std::string_view text) { scores.write(text); });
   scores.commit();
   files.commit();
-  if (history) write_smoothed_tracks(folder / "tracks.csv", history->history());
+  if (history) write_smoothed_tracks(folder / "tracks.csv", history->history(), columns);
+  if (matches) matches->commit();
+  if (options.plots) write_plots(folder, scoring, scene.name);
   results.commit();
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);
   if (!manners.quiet) warn_of_displacements(truth);
@@ -160,7 +184,7 @@ std::vector<fs::path> folders_of(const RunOptions& options, const std::vector<Sc
 int run(const RunOptions& options, const Manners& manners) {
   std::vector<Scene> scenes;
   for (const std::string& file : options.scene.files) {
-    scenes.push_back(load_scene(file, options.scene));
+    scenes.push_back(load_scene(file, options.scene, manners));
   }
   const std::vector<fs::path> folders = folders_of(options, scenes);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -169,7 +193,7 @@ int run(const RunOptions& options, const Manners& manners) {
     if (const auto* world = std::get_if<WorldScene>(&scenes[i])) {
       run_world(*world, results, options, manners);
     } else {
-      run_series(std::get<SeriesScene>(scenes[i]), results);
+      run_series(std::get<SeriesScene>(scenes[i]), results, options.plots);
     }
     if (!manners.quiet) {
       tell("{}: results in {}", name_of(scenes[i]), folders[i].string());

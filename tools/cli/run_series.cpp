@@ -4,24 +4,31 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <variant>
 
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/writer.hpp"
 #include "tools/cli/messages.hpp"
 #include "tools/film/belief_plot.hpp"
-#include "tools/film/series_plot.hpp"
+#include "tools/plot/figure_file.hpp"
+#include "tools/plot/series_figure.hpp"
 #include "tools/run/series.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
-#include "tools/render/plot.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+/// A missed measurement is an empty cell.
+std::optional<double> measured(double z) {
+  return std::isnan(z) ? std::nullopt : std::optional(z);
+}
 
 std::string as_csv(const SeriesResult& result) {
   CsvRow csv;
@@ -32,7 +39,7 @@ std::string as_csv(const SeriesResult& result) {
   csv.end();
   for (const SeriesTrack& track : result.tracks) {
     for (const SeriesRow& row : track.rows) {
-      csv << track.filter << row.k << row.t << row.z << row.x_pred << row.dx_pred << row.residual
+      csv << track.filter << row.k << row.t << measured(row.z) << row.x_pred << row.dx_pred << row.residual
           << row.x << row.dx << row.ddx_pred << row.ddx << row.truth;
       csv.end();
     }
@@ -58,6 +65,26 @@ std::string beliefs_as_csv(const SeriesResult& result) {
     }
   }
   return has_beliefs ? csv.text() : std::string();
+}
+
+/// The measurements of a file, and the scene that reads them from beside itself.
+void write_measurements(const fs::path& folder, SeriesScene& scene, const SeriesResult& result) {
+  auto* const given = std::get_if<GivenSeries>(&scene.data);
+  if (given == nullptr || given->file.empty()) return;
+  CsvRow csv;
+  if (!given->times.empty()) csv << "t";
+  csv << "z";
+  if (!given->truth.empty()) csv << "truth";
+  csv.end();
+  for (const SeriesMeasurement& row : result.measurements) {
+    if (row.time) csv << *row.time;
+    csv << measured(row.z);
+    if (row.truth) csv << *row.truth;
+    csv.end();
+  }
+  write_file(folder / "measurements.csv", csv.text());
+  *given = {};
+  given->file = "measurements.csv";
 }
 
 ordered_json number(const std::optional<double>& value) {
@@ -96,19 +123,35 @@ std::string as_table(const SeriesResult& result) {
                              cell(result.measurement_rmse));
 }
 
+/// Measurements, estimates and truth, residuals and errors.
+plot::Figure figure_of(const SeriesScene& scene, const SeriesResult& result, const fs::path& csv) {
+  plot::SeriesLabels labels{.title = scene.name,
+                            .time = scene.plot.x_label,
+                            .value = scene.plot.y_label,
+                            .shows_measurements = !std::holds_alternative<WalkSeries>(scene.data)};
+  for (const SeriesTrack& track : result.tracks) {
+    labels.filters[track.filter] = fmt::format("{} ({})", track.filter, track.gains);
+  }
+  return plot::figure_of_series(csv.string(), labels);
+}
+
 }  // namespace
 
-void run_series(const SeriesScene& scene, ResultFolder& results) {
+void run_series(const SeriesScene& scene, ResultFolder& results, bool plots) {
   const fs::path& folder = results.scratch();
   const SeriesResult result = ghtrack::run(scene);
-  render::write_plot(folder / "plot.png", film::plot_of(scene, result));
-  write_file(folder / "scene.yaml", write_scene(scene));
+  SeriesScene resolved = scene;
+  write_measurements(folder, resolved, result);
+  write_file(folder / "scene.yaml", write_scene(resolved));
   write_file(folder / "metrics.json", as_json(scene, result).dump(2) + "\n");
   write_file(folder / "series.csv", as_csv(result));
   if (const std::string beliefs = beliefs_as_csv(result); !beliefs.empty()) {
     write_file(folder / "belief.csv", beliefs);
     write_file(folder / "belief.svg", film::belief_picture(scene, result));
   }
+  const plot::Figure figure = figure_of(scene, result, folder / "series.csv");
+  plot::write_figure(folder / "plot.png", figure, {});
+  if (plots) plot::write_figure(folder / "plots.svg", figure, {});
   results.commit();
   print(as_table(result));
 }

@@ -6,6 +6,7 @@
 namespace ghtrack::cli {
 
 /// Runs the filters of a series scene and writes their results into a folder.
-void run_series(const SeriesScene& scene, ResultFolder& results);
+/// @param plots  also write plots.svg
+void run_series(const SeriesScene& scene, ResultFolder& results, bool plots);
 
 }  // namespace ghtrack::cli

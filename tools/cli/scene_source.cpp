@@ -3,7 +3,10 @@
 #include <cctype>
 
 #include "scenes/schema/reader.hpp"
+#include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
 #include "tools/cli/usage_error.hpp"
+#include "tools/run/series_file.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -35,8 +38,15 @@ std::vector<std::string> SceneOptions::all_overrides() const {
   return all;
 }
 
-Scene load_scene(const std::string& file, const SceneOptions& options) {
-  return read_scene(file, options.all_overrides());
+Scene load_scene(const std::string& file, const SceneOptions& options, const Manners& manners) {
+  Scene scene = read_scene(file, options.all_overrides());
+  if (auto* const series = std::get_if<SeriesScene>(&scene)) {
+    const auto folder = std::filesystem::path(file == "-" ? "" : file).parent_path();
+    for (const std::string& remark : read_measurements(*series, folder, stop_if_interrupted)) {
+      if (!manners.quiet) tell("ghtrack: {}", remark);
+    }
+  }
+  return scene;
 }
 
 std::filesystem::path default_folder(const std::string& scene_name, const std::string& file) {

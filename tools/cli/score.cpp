@@ -19,6 +19,7 @@
 #include "tools/metrics/point_scoring.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/record/kitti_file.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -98,7 +99,7 @@ class Extras {
       if (several_) name << sequence;
       steps_->write(name.text() + (several_ ? "," : "") + step_csv_row(step.score));
     }
-    if (matches_) matches_->add(sequence, step, truth, tracks);
+    if (matches_) matches_->add(sequence, step.score.time, step.matches, truth, tracks);
   }
 
   void commit() {
@@ -116,16 +117,20 @@ ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, 
                             const Manners& manners) {
   const std::vector<MotRow> truth = read_mot_file(pair.truth, MotKind::kTruth);
   const std::vector<MotRow> tracks = read_mot_file(pair.tracks, MotKind::kResult);
+  const bool are_labels = looks_like_kitti_file(pair.truth);
   const bool automatic = options.benchmark == "auto";
-  const auto named = automatic ? std::optional(recognise_benchmark(pair.truth, truth))
-                               : benchmark_named(options.benchmark);
+  const auto named = !automatic   ? benchmark_named(options.benchmark)
+                     : are_labels ? MotBenchmark::kNone
+                                  : std::optional(recognise_benchmark(pair.truth, truth));
   if (!named) {
     throw UsageError(fmt::format(
         "score: --benchmark is '{}'; allowed are auto, MOT15, MOT16, MOT17, MOT20 and none",
         shown(options.benchmark)));
   }
   if (automatic && !manners.quiet) {
-    tell("ghtrack: {}: scored under the rules of {}", pair.truth, to_string(*named));
+    tell("ghtrack: {}: {}", pair.truth,
+         are_labels ? "labels of KITTI; all types are scored alike, and DontCare is left out"
+                    : fmt::format("scored under the rules of {}", to_string(*named)));
   }
   return score_boxes(*named, pair.truth, truth, tracks, settings(options, pair, true),
                      [&](const Scorer::Step& step, const ScoredSet& objects,
@@ -177,7 +182,7 @@ ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair
 }
 
 bool are_boxes(const ScoreOptions& options, const ScorePair& pair) {
-  return options.format == "mot" ||
+  return options.format == "mot" || options.format == "kitti" ||
          (options.format == "auto" && options.data.columns.empty() &&
           looks_like_mot_file(pair.truth));
 }
@@ -185,9 +190,10 @@ bool are_boxes(const ScoreOptions& options, const ScorePair& pair) {
 }  // namespace
 
 int score(const ScoreOptions& options, const Manners& manners) {
-  if (options.format != "auto" && options.format != "csv" && options.format != "mot") {
+  if (options.format != "auto" && options.format != "csv" && options.format != "mot" &&
+      options.format != "kitti") {
     throw UsageError(
-        fmt::format("score: --format is '{}'; allowed are auto, csv and mot", options.format));
+        fmt::format("score: --format is '{}'; allowed are auto, csv, mot and kitti", options.format));
   }
   const std::vector<ScorePair> pairs = pairs_to_score(options);
   const bool several = pairs.size() > 1;

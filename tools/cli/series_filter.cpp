@@ -195,7 +195,7 @@ AxisFilter AxisFilters::make(std::size_t axis, const std::optional<double>& firs
 
 void AxisFilters::start(const MeasuredRow& row) {
   for (std::size_t axis = 0; axis < plan_.guess.size(); ++axis) {
-    axes_.push_back(make(axis, *row.z[axis]));
+    axes_.push_back(make(axis, (*row.z)[static_cast<Eigen::Index>(axis)]));
   }
 }
 
@@ -207,10 +207,10 @@ bool AxisFilters::predict(double dt) {
   return predicted;
 }
 
-bool AxisFilters::update(const std::vector<double>& z, const MeasuredRow& row) {
+bool AxisFilters::update(const AxisVector& z, const MeasuredRow& row) {
   bool used = true;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Kinematics<1>::Vector measured(z[i]);
+    const Kinematics<1>::Vector measured(z[static_cast<Eigen::Index>(i)]);
     if (!row.g && !row.h && !row.k) {
       used = std::visit([&](auto& filter) { return filter.update(measured); }, axes_[i]) && used;
       continue;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/cli/commands.hpp"
-#include "tools/cli/series_rows.hpp"
+#include "tools/data/series_reader.hpp"
 #include "tracker/filters/axis_filter.hpp"
 
 namespace ghtrack::cli {
@@ -39,7 +39,7 @@ class AxisFilters {
   /// Corrects with the row's measurements; its g, h and k replace the filter's gains for once.
   /// @param z  by axis
   /// @throws UsageError if the filter has no such gains
-  bool update(const std::vector<double>& z, const MeasuredRow& row);
+  bool update(const AxisVector& z, const MeasuredRow& row);
 
   const Kinematics<1>& estimate(std::size_t axis) const { return ghtrack::estimate(axes_[axis]); }
   Refusals refusals() const;

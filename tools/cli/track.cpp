@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include <set>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "scenes/schema/configuration.hpp"
@@ -20,14 +22,18 @@
 #include "tools/cli/data_source.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/track_film.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/data/formats.hpp"
 #include "tools/data/scan_reader.hpp"
+#include "tools/plot/figure_file.hpp"
+#include "tools/plot/track_figure.hpp"
 #include "tools/run/box_tracking.hpp"
 #include "tools/run/learning.hpp"
 #include "tools/run/offline.hpp"
 #include "tools/run/online.hpp"
 #include "tools/run/shared_times.hpp"
+#include "tools/record/kitti_file.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/mot_folder.hpp"
 #include "tools/record/run_writer.hpp"
@@ -158,6 +164,30 @@ TrackColumns geographic_columns(const std::optional<GeoPoint>& origin, bool degr
   return columns;
 }
 
+TrackColumns joined(TrackColumns first, TrackColumns second) {
+  first.names.insert(first.names.end(), second.names.begin(), second.names.end());
+  return {.names = std::move(first.names),
+          .append = [first = std::move(first.append), second = std::move(second.append)](
+                        CsvRow& row, const TrackEstimate& track) {
+            if (first) first(row, track);
+            if (second) second(row, track);
+          }};
+}
+
+/// Draws tracks over their detections, beside the file that has them.
+void write_plots(const fs::path& tracks, const TrackOptions& options) {
+  const plot::Figure figure =
+      plot::figure_of({.tracks = tracks.string(),
+                       .truth = {},
+                       .detections = options.detections.front(),
+                       .panels = {},
+                       .cutoff = 0.0,
+                       .title = fs::path(options.detections.front()).filename().string(),
+                       .reading = read_options(options.data)});
+  fs::path picture = tracks;
+  plot::write_figure(picture.replace_extension(".svg"), figure, {});
+}
+
 /// Gathers whole tracks in degrees, without what is tentative.
 class GeoTracks {
  public:
@@ -223,6 +253,15 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
     config = learned.config;
     tell_what_was_learned(learned);
   }
+  TrackFilm film;
+  const bool filmed = !options.film.output.empty();
+  if (filmed) {
+    scans.next = [next = scans.next, &film](Scan& scan) {
+      if (!next(scan)) return false;
+      film.add(scan);
+      return true;
+    };
+  }
   StepTimes steps;
   FitWatch watch;
   TrackerState state;
@@ -249,14 +288,21 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   };
   if (geographic) {
     GeoTracks tracks(*summary.origin);
-    track_all([&](const TrackSnapshot& now) { tracks.add(now); });
+    track_all([&](const TrackSnapshot& now) {
+      tracks.add(now);
+      if (filmed) film.add(now);
+    });
     times.of(StageTimes::kWrite, [&] {
       write_file(options.output, as_geographic_file(options.output, tracks.all()));
     });
   } else {
-    TrackWriter writer(output_file(options.output, "tracks.csv"),
-                       geographic_columns(summary.origin, options.degrees));
-    track_all([&](const TrackSnapshot& now) { writer.add(now); });
+    TrackColumns columns = geographic_columns(summary.origin, options.degrees);
+    if (options.plots) columns = joined(std::move(columns), innovation_columns());
+    TrackWriter writer(output_file(options.output, "tracks.csv"), std::move(columns));
+    track_all([&](const TrackSnapshot& now) {
+      writer.add(now);
+      if (filmed) film.add(now);
+    });
     times.of(StageTimes::kWrite, [&] { writer.commit(); });
   }
   if (!options.save_config.empty()) {
@@ -264,6 +310,79 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   }
   if (!manners.quiet) watch.report(config);
   report_refusals(state, manners);
+  if (options.plots) write_plots(output_file(options.output, "tracks.csv"), options);
+  if (!filmed) return;
+  FilmOptions wanted = options.film;
+  if (options.data.frame_rate) wanted.frame_rate = options.data.frame_rate;
+  film.write(wanted, summary.period, summary.origin, manners);
+}
+
+/// Films the boxes of a sequence over its images.
+void film_sequence(const TrackOptions& options, const MotSequence& sequence,
+                   const std::vector<MotRow>& detections, const BoxTracks& tracks,
+                   const Manners& manners) {
+  constexpr double kUsualRate = 30.0;  // [Hz]
+  FilmOptions wanted = options.film;
+  const fs::path images = sequence.detections.parent_path().parent_path() / "img1";
+  std::error_code ignored;
+  if (wanted.background.empty() && fs::is_directory(images, ignored)) {
+    wanted.background = images.string();
+  }
+  wanted.frame_rate = options.data.frame_rate ? *options.data.frame_rate
+                      : sequence.info         ? sequence.info->frame_rate
+                                              : kUsualRate;
+  if (sequence.info && sequence.info->width > 0 && sequence.info->height > 0) {
+    wanted.width = sequence.info->width;
+    wanted.height = sequence.info->height;
+  }
+  TrackFilm::of_boxes(tracks.rows, detections, *wanted.frame_rate)
+      .write(wanted, 1.0 / *wanted.frame_rate, std::nullopt, manners);
+}
+
+/// What the boxes of each track show: what most of the detections in their places do.
+std::map<std::int64_t, std::string> types_of(const std::vector<MotRow>& tracks,
+                                             const std::vector<KittiRow>& detections) {
+  std::map<std::int64_t, std::map<std::string, int>> votes;
+  std::size_t begin = 0;
+  for (const MotRow& track : tracks) {
+    while (begin < detections.size() && detections[begin].box.frame < track.frame) ++begin;
+    const auto distance = [&](const KittiRow& row) {
+      return std::hypot(row.box.left + 0.5 * row.box.width - track.left - 0.5 * track.width,
+                        row.box.top + 0.5 * row.box.height - track.top - 0.5 * track.height);
+    };
+    const KittiRow* nearest = nullptr;
+    for (std::size_t i = begin; i < detections.size() && detections[i].box.frame == track.frame;
+         ++i) {
+      if (nearest == nullptr || distance(detections[i]) < distance(*nearest)) {
+        nearest = &detections[i];
+      }
+    }
+    if (nearest != nullptr && distance(*nearest) < 0.5 * track.width) {
+      ++votes[track.id][nearest->type];
+    }
+  }
+  std::map<std::int64_t, std::string> types;
+  for (const auto& [id, counts] : votes) {
+    types[id] = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+                  return a.second < b.second;
+                })->first;
+  }
+  return types;
+}
+
+/// The rows of a result, in the format of its detections.
+std::string result_rows(const std::vector<MotRow>& tracks, const fs::path& detections) {
+  std::string text;
+  if (!looks_like_kitti_file(detections)) {
+    for (const MotRow& row : tracks) append_mot_row(text, row);
+    return text;
+  }
+  const auto types = types_of(tracks, read_kitti_file(detections, MotKind::kDetections));
+  for (const MotRow& row : tracks) {
+    const auto type = types.find(row.id);
+    append_kitti_row(text, {row, type == types.end() ? "Misc" : type->second});
+  }
+  return text;
 }
 
 std::size_t images_in(const std::vector<MotRow>& rows) {
@@ -300,8 +419,7 @@ void track_sequences(const TrackOptions& options, const OfflineConfig& config, S
     }
     report_refusals(tracks.state, manners);
     times.of(StageTimes::kWrite, [&] {
-      std::string rows;
-      for (const MotRow& row : tracks.rows) append_mot_row(rows, row);
+      const std::string rows = result_rows(tracks.rows, sequence.detections);
       const std::int32_t last = detections.empty() ? 1 : detections.back().frame;
       if (evaluation) evaluation->add(sequence, rows, last);
       if (!evaluation || !options.output.empty()) {
@@ -310,13 +428,16 @@ void track_sequences(const TrackOptions& options, const OfflineConfig& config, S
                    rows);
       }
     });
+    if (!options.film.output.empty()) {
+      film_sequence(options, sequence, detections, tracks, manners);
+    }
   }
   if (evaluation) evaluation->finish();
 }
 
 /// Whether the input is boxes of MOTChallenge rather than points of a CSV file.
 bool is_mot(const TrackOptions& options) {
-  if (options.format != "auto") return options.format == "mot";
+  if (options.format != "auto") return options.format != "csv";
   std::error_code ignored;
   const std::string& first = options.detections.front();
   return fs::is_directory(first, ignored) ||
@@ -330,7 +451,16 @@ void check(const TrackOptions& options, bool boxes) {
       throw UsageError(fmt::format("track: '{}' cannot be the name of a folder", *name));
     }
   }
+  if (options.plots && (boxes || options.output.empty() || options.output == "-")) {
+    throw UsageError(boxes ? "track: --plots are of points; `ghtrack plot` draws boxes"
+                           : "track: --plots lie beside the output; name it with -o");
+  }
+  const bool is_filmed = !options.film.output.empty();
+  if (!is_filmed && (!options.film.background.empty() || !options.film.homography.empty())) {
+    throw UsageError("track: --background and --homography are for --video");
+  }
   if (options.detections.size() == 1) return;
+  if (is_filmed) throw UsageError("track: --video shows one sequence; there are several");
   if (!boxes) throw UsageError("track: several files must be MOTChallenge sequences");
   const bool wants_files = options.evaluation_folder.empty() || !options.output.empty();
   if (wants_files && !fs::is_directory(options.output, ignored)) {
@@ -349,8 +479,9 @@ void check(const TrackOptions& options, bool boxes) {
 
 int track(const TrackOptions& options, const Manners& manners) {
   const std::string& format = options.format;
-  if (format != "auto" && format != "csv" && format != "mot") {
-    throw UsageError(fmt::format("track: --format is '{}'; allowed are auto, csv and mot", format));
+  if (format != "auto" && format != "csv" && format != "mot" && format != "kitti") {
+    throw UsageError(
+        fmt::format("track: --format is '{}'; allowed are auto, csv, mot and kitti", format));
   }
   const bool boxes = is_mot(options);
   check(options, boxes);

@@ -36,6 +36,24 @@ bool has_decimal_comma(std::string_view cell) {
   return cell.find(',') != std::string_view::npos && parse_number(cell, ',').has_value();
 }
 
+/// "0,5 12,25 7": whether every line is as many numbers between blanks, some with decimal commas.
+bool are_blanks_with_decimal_commas(std::span<const std::string> lines) {
+  std::vector<std::string_view> cells;
+  std::vector<std::string> owned;
+  std::size_t count = 0;
+  bool any = false;
+  for (const std::string& line : lines) {
+    split_cells(line, ' ', cells, owned);
+    if (cells.size() < 2 || (count != 0 && cells.size() != count)) return false;
+    count = cells.size();
+    for (const std::string_view cell : cells) {
+      if (!parse_number(cell, ',') && !is_missing(cell)) return false;
+      any = any || has_decimal_comma(cell);
+    }
+  }
+  return any;
+}
+
 /// A cell that starts with a quote: its value, and the rest of the line after the closing quote.
 std::string_view take_quoted(std::string_view& rest, std::vector<std::string>& owned) {
   std::string value;
@@ -86,10 +104,8 @@ Dialect recognise_dialect(std::span<const std::string> lines) {
     return has_decimal_comma(first) ? Dialect{.separator = ';', .point = ','} : Dialect{};
   }
   dialect.separator = *found;
-  if (dialect.separator == ',') {
-    // A head of blanks over rows of numbers with decimal commas has commas only in its rows, so
-    // here commas separate.
-    return dialect;
+  if (dialect.separator == ',' && are_blanks_with_decimal_commas(lines)) {
+    return {.separator = ' ', .point = ','};
   }
   std::vector<std::string_view> cells;
   std::vector<std::string> owned;

@@ -22,20 +22,8 @@ std::string unit_of(const Table& table, std::size_t column) {
 }  // namespace
 
 FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<GeoPoint> origin)
-    : origin_(origin) {
+    : time_(table, options), origin_(origin) {
   const ColumnMap& columns = table.columns();
-  const auto frame = columns.find(Role::kFrame);
-  const bool time_is_chosen = ("," + options.columns).find(",t=") != std::string::npos;
-  frames_ = frame && !time_is_chosen && (options.frame_rate || !columns.has(Role::kTime));
-  if (frames_ && !options.frame_rate) {
-    const std::string name = table.headings()[*frame].text;
-    throw InputError(fmt::format(
-        "{}:1: error: there is no column 't', and '{}' counts images; --frame-rate F says how many "
-        "there are in a second",
-        table.name(), name));
-  }
-  time_ = frames_ ? *frame : table.required(Role::kTime);
-  date_ = columns.find(Role::kDate);
   geographic_ = columns.has(Role::kLatitude) && columns.has(Role::kLongitude) &&
                 !(columns.has(Role::kX) && columns.has(Role::kY));
   x_ = table.required(geographic_ ? Role::kLongitude : Role::kX);
@@ -56,20 +44,10 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
     sigma_x_scale_ = x_unit ? x_unit->scale : x_scale_;
     sigma_y_scale_ = y_unit ? y_unit->scale : y_scale_;
   }
-  clock_.emplace(table.headings()[time_].unit, table.first_cell(time_), table.dialect().point,
-                 frames_ || time_is_chosen ? options.frame_rate : std::nullopt);
-}
-
-std::optional<double> FixColumns::read_time(Table& table) {
-  const auto time = date_ && *date_ != time_
-                        ? clock_->seconds(table.cell(*date_), table.cell(time_))
-                        : clock_->seconds(table.cell(time_));
-  if (!time) table.reject_cell(time_, std::string(clock_->expectation()));
-  return time;
 }
 
 std::optional<Fix> FixColumns::read(Table& table) {
-  const auto time = read_time(table);
+  const auto time = time_.read(table);
   if (!time) return std::nullopt;
   Fix fix{.time = *time, .position = std::nullopt};
   const auto x = table.number(x_);
@@ -105,12 +83,8 @@ std::optional<Eigen::Vector2d> FixColumns::sigma(const Table& table) const {
 }
 
 std::string FixColumns::describe(const Table& table) const {
-  const auto name = [&](std::size_t column) {
-    return table.has_header() ? in_quotes(table.headings()[column].text)
-                              : "column " + table.headings()[column].text;
-  };
-  std::string text = fmt::format("t ({}) from {}", clock_->meaning(), name(time_));
-  if (date_ && *date_ != time_) text += " on " + name(*date_);
+  const auto name = [&](std::size_t column) { return name_of_column(table, column); };
+  std::string text = time_.describe(table);
   if (geographic_) {
     text += fmt::format(", x and y in m from degrees in {} and {}", name(x_), name(y_));
     if (origin_) {

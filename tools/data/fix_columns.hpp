@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "tools/data/clock.hpp"
 #include "tools/data/place.hpp"
 #include "tools/data/table.hpp"
+#include "tools/data/time_column.hpp"
 
 namespace ghtrack {
 
@@ -38,15 +38,12 @@ class FixColumns {
   std::string describe(const Table& table) const;
 
  private:
-  std::optional<double> read_time(Table& table);
-
-  std::size_t time_ = 0, x_ = 0, y_ = 0;
-  std::optional<std::size_t> date_, sigma_x_, sigma_y_;
+  TimeColumn time_;
+  std::size_t x_ = 0, y_ = 0;
+  std::optional<std::size_t> sigma_x_, sigma_y_;
   double x_scale_ = 1.0, y_scale_ = 1.0, sigma_x_scale_ = 1.0, sigma_y_scale_ = 1.0;
   bool geographic_ = false;
-  bool frames_ = false;
   std::optional<GeoPoint> origin_;
-  std::optional<Clock> clock_;
 };
 
 /// The origin of local metres that tracks carry in the columns origin_lat and origin_lon.

@@ -258,6 +258,7 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
     }
     columns_.emplace_back(choice.role, *column);
   }
+  chosen_ = columns_.size();
   for (const Alias& alias : kAliases) {
     if (has(alias.role)) continue;
     any_word(alias.names, [&](std::string_view name) {
@@ -273,6 +274,16 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
       return false;
     });
   }
+}
+
+bool ColumnMap::has_role(std::size_t column) const {
+  return std::any_of(columns_.begin(), columns_.end(),
+                     [&](const auto& known) { return known.second == column; });
+}
+
+bool ColumnMap::is_chosen(Role role) const {
+  return std::any_of(columns_.begin(), columns_.begin() + static_cast<std::ptrdiff_t>(chosen_),
+                     [&](const auto& column) { return column.first == role; });
 }
 
 std::optional<std::size_t> ColumnMap::find(Role role) const {

@@ -73,8 +73,15 @@ class ColumnMap {
   std::optional<std::size_t> find(Role role) const;
   bool has(Role role) const { return find(role).has_value(); }
 
+  /// Whether the column means something.
+  bool has_role(std::size_t column) const;
+
+  /// Whether the column was asked for rather than known by its name.
+  bool is_chosen(Role role) const;
+
  private:
-  std::vector<std::pair<Role, std::size_t>> columns_;
+  std::vector<std::pair<Role, std::size_t>> columns_;  // the chosen ones first
+  std::size_t chosen_ = 0;
 };
 
 }  // namespace ghtrack

@@ -20,10 +20,9 @@ struct PointRow {
 };
 
 /// The column of identities: by the name that our own files have, or by an alias.
-std::size_t identity_column(Table& table, PointKind kind, const ReadOptions& options) {
-  const bool chosen = ("," + options.columns).find(",id=") != std::string::npos;
+std::size_t identity_column(Table& table, PointKind kind) {
   const char* name = kind == PointKind::kTruth ? "truth_id" : "track_id";
-  if (const auto own = table.column(name); own && !chosen) return *own;
+  if (const auto own = table.column(name); own && !table.columns().is_chosen(Role::kIdentity)) return *own;
   if (table.columns().has(Role::kIdentity)) return *table.columns().find(Role::kIdentity);
   return table.required(Role::kIdentity);
 }
@@ -34,7 +33,7 @@ struct PointReader::State {
   State(const std::string& path, PointKind kind, const ReadOptions& options,
         std::optional<GeoPoint> known_origin)
       : table(path, options),
-        identity(identity_column(table, kind, options)),
+        identity(identity_column(table, kind)),
         fixes(table, options, known_origin),
         status(kind == PointKind::kTracks ? table.columns().find(Role::kStatus) : std::nullopt),
         has_names(!parse_whole(table.first_cell(identity))),

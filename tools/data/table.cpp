@@ -39,6 +39,38 @@ std::int64_t characters(std::string_view text) {
                        [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
 }
 
+/// Joins a cell and the one after it, both of one line.
+void join(std::vector<std::string_view>& cells, std::size_t at) {
+  const char* const begin = cells[at].data();
+  const std::string_view after = cells[at + 1];
+  cells[at] = {begin, static_cast<std::size_t>(after.data() + after.size() - begin)};
+  cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+}
+
+/// Where blanks separate, "Time (s)" and "x / mm" are one heading each.
+void join_units(std::vector<std::string_view>& cells) {
+  for (std::size_t i = 0; i + 1 < cells.size();) {
+    const char first = cells[i + 1].empty() ? ' ' : cells[i + 1].front();
+    if (first == '(' || first == '[') {
+      join(cells, i);
+    } else if (cells[i + 1] == "/" && i + 2 < cells.size()) {
+      join(cells, i);
+      join(cells, i);
+    } else {
+      ++i;
+    }
+  }
+}
+
+/// Where blanks separate, a date and the time after it are one value if they are one column.
+void join_date_and_time(std::vector<std::string_view>& cells) {
+  for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
+    if (!parse_date(cells[i]) || !parse_time_of_day(cells[i + 1])) continue;
+    join(cells, i);
+    return;
+  }
+}
+
 TextInput open_input(const std::string& path, const std::function<void()>& pause) {
   if (auto text = points_as_csv(path)) return TextInput(path, *std::move(text));
   return TextInput(path, pause);
@@ -53,7 +85,9 @@ Table::Table(const std::string& path, const ReadOptions& options)
       columns_({}, {}) {
   take_sample();
   try {
-    columns_ = ColumnMap(headings_, parse_column_choices(options_.columns));
+    std::vector<ColumnChoice> choices = parse_column_choices(options_.columns);
+    if (!options_.time_column.empty()) choices.push_back({Role::kTime, options_.time_column});
+    columns_ = ColumnMap(headings_, choices);
   } catch (const ColumnError& error) {
     findings_.add(sample_.empty() ? 0 : sample_.front().number, error.what());
     findings_.throw_if_any();
@@ -76,19 +110,31 @@ void Table::take_sample() {
   for (const SampleLine& line : sample_) lines.push_back(line.text);
   dialect_ = recognise_dialect(lines);
   find_header(last_comment);
-  if (first_row_ < sample_.size()) {
-    split_cells(sample_[first_row_].text, dialect_.separator, cells_, owned_);
-    first_cells_.assign(cells_.begin(), cells_.end());
-    // The second row will do where a first measurement is missing.
-    first_cells_.resize(std::max(first_cells_.size(), headings_.size()));
-  }
+  find_first_values();
   at_ = first_row_;
+}
+
+void Table::find_first_values() {
+  first_values_.resize(headings_.size());
+  for (std::size_t row = first_row_; row < sample_.size(); ++row) {
+    split_row(sample_[row].text);
+    if (row == first_row_) first_cells_.assign(cells_.begin(), cells_.end());
+    for (std::size_t i = 0; i < std::min(cells_.size(), headings_.size()); ++i) {
+      if (first_values_[i].empty() && is_value(cells_[i], dialect_.point)) {
+        first_values_[i] = cells_[i];
+      }
+    }
+  }
 }
 
 void Table::find_header(const std::string& last_comment) {
   if (sample_.empty()) return;
   split_cells(sample_.front().text, dialect_.separator, cells_, owned_);
-  has_header_ = !is_value(cells_.front(), dialect_.point);
+  if (dialect_.separator == ' ') join_units(cells_);
+  const bool starts_with_value =
+      is_value(cells_.front(), dialect_.point) ||
+      (cells_.size() > 1 && is_missing(cells_.front()) && is_value(cells_[1], dialect_.point));
+  has_header_ = !starts_with_value;
   if (has_header_) {
     for (const std::string_view cell : cells_) headings_.push_back(parse_heading(cell));
     first_row_ = 1;
@@ -166,6 +212,11 @@ std::string_view Table::first_cell(std::size_t column) const {
                                       : std::string_view{};
 }
 
+std::string_view Table::first_value(std::size_t column) const {
+  const bool found = column < first_values_.size() && !first_values_[column].empty();
+  return found ? std::string_view(first_values_[column]) : first_cell(column);
+}
+
 std::optional<std::string_view> Table::next_line() {
   if (at_ < sample_.size()) {
     line_number_ = sample_[at_].number;
@@ -176,14 +227,21 @@ std::optional<std::string_view> Table::next_line() {
   return line;
 }
 
+void Table::split_row(std::string_view line) {
+  split_cells(line, dialect_.separator, cells_, owned_);
+  while (cells_.size() > headings_.size() && cells_.back().empty()) cells_.pop_back();
+  if (dialect_.separator == ' ' && cells_.size() == headings_.size() + 1) {
+    join_date_and_time(cells_);
+  }
+}
+
 bool Table::next() {
   while (options_.skip_bad_rows || !findings_.enough()) {
     const auto line = next_line();
     if (!line) return false;
     if (line->empty() ? headings_.size() != 1 : (is_blank(*line) || is_comment(*line))) continue;
     line_ = *line;
-    split_cells(line_, dialect_.separator, cells_, owned_);
-    while (cells_.size() > headings_.size() && cells_.back().empty()) cells_.pop_back();
+    split_row(line_);
     if (cells_.size() == headings_.size()) return true;
     reject(fmt::format("this row has {} fields; the {} row has {}", cells_.size(),
                        has_header_ ? "header" : "first", headings_.size()));

@@ -17,6 +17,7 @@ namespace ghtrack {
 /// How somebody else's file is to be read.
 struct ReadOptions {
   std::string columns = {};                          // t=NAME,x=NAME,…; empty: by their names
+  std::string time_column = {};                      // the same of t, with any name
   std::optional<double> frame_rate = std::nullopt;   // of a column of frame numbers [Hz]
   bool skip_bad_rows = false;                        // leave them out instead of refusing the file
   std::function<void()> pause = {};                  // called between blocks; may throw
@@ -49,6 +50,9 @@ class Table {
 
   /// The first row of data as text, empty if there is none.
   std::string_view first_cell(std::size_t column) const;
+
+  /// The first number, date or time of a column in the first rows; else its first cell.
+  std::string_view first_value(std::size_t column) const;
 
   /// Goes to the next row that has as many cells as the header; false after the last.
   bool next();
@@ -89,8 +93,10 @@ class Table {
 
   void take_sample();
   void find_header(const std::string& last_comment);
+  void find_first_values();
   bool take_units_row();
   std::optional<std::string_view> next_line();
+  void split_row(std::string_view line);
 
   ReadOptions options_;
   TextInput input_;
@@ -107,7 +113,7 @@ class Table {
   std::int64_t line_number_ = 0;
   std::vector<std::string_view> cells_;
   std::vector<std::string> owned_;
-  std::vector<std::string> first_cells_;
+  std::vector<std::string> first_cells_, first_values_;
 };
 
 }  // namespace ghtrack

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/metrics/output.hpp"
+
 namespace ghtrack {
 
 MatchWriter::MatchWriter(std::filesystem::path path, bool with_sequence)
@@ -12,10 +14,11 @@ MatchWriter::MatchWriter(std::filesystem::path path, bool with_sequence)
   file_.write("t,truth_id,track_id,x_truth,y_truth,x,y,distance\n");
 }
 
-void MatchWriter::add(const std::string& sequence, const Scorer::Step& step, const ScoredSet& truth,
+void MatchWriter::add(const std::string& sequence, double time,
+                      const std::vector<PointMatch>& matches, const ScoredSet& truth,
                       const ScoredSet& tracks) {
   std::vector<const PointMatch*> of_truth(truth.ids.size()), of_track(tracks.ids.size());
-  for (const PointMatch& match : step.matches) {
+  for (const PointMatch& match : matches) {
     of_truth[static_cast<std::size_t>(match.truth)] = &match;
     of_track[static_cast<std::size_t>(match.track)] = &match;
   }
@@ -34,7 +37,7 @@ void MatchWriter::add(const std::string& sequence, const Scorer::Step& step, con
       }
     };
     if (with_sequence_) rows_ << sequence;
-    rows_ << step.score.time;
+    rows_ << time;
     identity(truth, object);
     identity(tracks, track);
     position(truth, object);
@@ -58,5 +61,32 @@ void MatchWriter::add(const std::string& sequence, const Scorer::Step& step, con
 }
 
 void MatchWriter::commit() { file_.commit(); }
+
+RunMatches::RunMatches(std::filesystem::path path, const GospaOptions& options)
+    : writer_(std::move(path), false), options_(options) {}
+
+void RunMatches::add_tracks(const StepRecord& record) {
+  if (record.contender != 0 || !record.is_in_order()) return;
+  if (time_ && *time_ != record.truth.time) write_instant();
+  time_ = record.truth.time;
+  truth_.clear();
+  tracks_.clear();
+  for (const TruthState& object : record.truth.objects) truth_.add(object.id, object.position);
+  for (const TrackEstimate& track : record.tracks.tracks) {
+    if (counts_as_output(track)) tracks_.add(track.id, track.position);
+  }
+}
+
+void RunMatches::write_instant() {
+  if (!time_) return;
+  const GospaResult sets = gospa(truth_.positions, tracks_.positions, options_);
+  writer_.add("", *time_, sets.matches, truth_, tracks_);
+  time_.reset();
+}
+
+void RunMatches::commit() {
+  write_instant();
+  writer_.commit();
+}
 
 }  // namespace ghtrack

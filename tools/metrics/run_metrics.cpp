@@ -8,15 +8,12 @@
 #include <tuple>
 #include <utility>
 
+#include "tools/metrics/output.hpp"
 #include "tracker/filters/gain_filter.hpp"
 #include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {
 namespace {
-
-bool counts_as_output(const TrackEstimate& track) {
-  return track.status != TrackStatus::kTentative;
-}
 
 std::optional<double> root_mean(double sum, std::int64_t count) {
   if (count == 0) return std::nullopt;

@@ -36,6 +36,7 @@ struct Panel {
   std::vector<Curve> curves = {};
   std::vector<Band> bands = {};
   std::vector<Level> levels = {};
+  bool wide = false;                 // as wide as the figure
   bool equal_scales = false;         // a metre is as long in x as in y
   std::optional<double> y_from = {}, y_to = {};  // instead of what the curves need
 };

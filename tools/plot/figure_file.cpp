@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tools/plot/panel_painter.hpp"
 #include "tools/record/atomic_file.hpp"
@@ -26,33 +27,60 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned count) {
   return CAIRO_STATUS_SUCCESS;
 }
 
-double title_height(const Figure& figure, const Style& style) {
-  return figure.title.empty() ? 0.0 : kTitle * style.font_size;
-}
+/// Where the panels of a figure are, in rows of as many as there is room for.
+class Layout {
+ public:
+  Layout(const Figure& figure, const Style& style)
+      : columns_(std::min(style.columns, std::max(1, static_cast<int>(figure.panels.size())))) {
+    top_ = figure.title.empty() ? 0.0 : kTitle * style.font_size;
+    const double width = style.width / columns_;
+    double y = 0.0;
+    int column = 0;
+    for (const Panel& panel : figure.panels) {
+      // A last panel that would stand alone takes the row.
+      const bool alone = &panel == &figure.panels.back() && column == 0 && !panel.equal_scales &&
+                         figure.panels.size() > 1;
+      const bool wide = (panel.wide || alone) && columns_ > 1;
+      if (wide && column > 0) {
+        y += kPanelAspect * width;
+        column = 0;
+      }
+      const double height = kPanelAspect * width * (wide && !alone ? kWide : 1.0);
+      places_.push_back({width * column, y, wide ? style.width : width, height});
+      column = wide ? 0 : (column + 1) % columns_;
+      if (column == 0) y += height;
+    }
+    if (column > 0 || figure.panels.empty()) y += kPanelAspect * width;
+    height_ = style.height > 0.0 ? style.height : top_ + y;
+    const double stretch = (height_ - top_) / y;
+    for (Rectangle& place : places_) {
+      place.y = top_ + stretch * place.y;
+      place.height *= stretch;
+    }
+  }
 
-int rows_of(const Figure& figure, const Style& style) {
-  const int panels = std::max(1, static_cast<int>(figure.panels.size()));
-  const int columns = std::min(style.columns, panels);
-  return (panels + columns - 1) / columns;
-}
+  double height() const { return height_; }
+  const std::vector<Rectangle>& places() const { return places_; }
 
-void draw(cairo_t* cairo, const Figure& figure, const Style& style, double height) {
+ private:
+  static constexpr double kWide = 1.4;  // height of a wide panel to that of the others
+
+  int columns_;
+  double top_ = 0.0, height_ = 0.0;
+  std::vector<Rectangle> places_;
+};
+
+void draw(cairo_t* cairo, const Figure& figure, const Style& style, const Layout& layout) {
   Canvas canvas(cairo);
   const Palette palette(style.dark);
-  canvas.fill(0.0, 0.0, style.width, height, palette.ground);
-  const double top = title_height(figure, style);
+  canvas.set(palette.ground);
+  cairo_paint(cairo);
   if (!figure.title.empty()) {
     canvas.text(style.font_size * 0.8, style.font_size * 1.5, figure.title, style.font_size * 1.15,
                 palette.ink, Canvas::Align::kLeft, true);
   }
-  const int columns = std::min(style.columns, std::max(1, static_cast<int>(figure.panels.size())));
-  const double width = style.width / columns;
-  const double row = (height - top) / rows_of(figure, style);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    const auto at = static_cast<int>(i);
-    draw_panel(canvas, figure.panels[i],
-               {width * (at % columns), top + row * (at / columns), width, row}, palette,
-               style.font_size);
+    draw_panel(canvas, figure.panels[i], layout.places()[i], palette, style.font_size);
   }
 }
 
@@ -76,11 +104,8 @@ bool is_figure_file(const std::filesystem::path& path) {
 }
 
 void write_figure(const std::filesystem::path& path, const Figure& figure, const Style& style) {
-  const int columns = std::min(style.columns, std::max(1, static_cast<int>(figure.panels.size())));
-  const double height =
-      style.height > 0.0 ? style.height
-                         : title_height(figure, style) + rows_of(figure, style) * kPanelAspect *
-                                                             style.width / columns;
+  const Layout layout(figure, style);
+  const double height = layout.height();
   const std::string ending = path.extension().string();
   std::string bytes;
   const bool is_png = ending == ".png";
@@ -99,7 +124,7 @@ void write_figure(const std::filesystem::path& path, const Figure& figure, const
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface.get()),
                                                                 &cairo_destroy);
   cairo_scale(cairo.get(), scale, scale);
-  draw(cairo.get(), figure, style, height);
+  draw(cairo.get(), figure, style, layout);
   cairo_show_page(cairo.get());
   if (is_png) cairo_surface_write_to_png_stream(surface.get(), &append, &bytes);
   cairo_surface_finish(surface.get());

@@ -12,6 +12,8 @@ namespace {
 
 using Align = Canvas::Align;
 
+constexpr std::size_t kFewDots = 300;  // that are drawn larger
+
 /// The least and the greatest of finite values.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -120,7 +122,10 @@ void draw_curve(Canvas& canvas, const Frame& frame, const Curve& curve, const Pa
                 double font_size) {
   cairo_t* const cairo = canvas.cairo();
   canvas.set(palette.of(curve.colour).with_alpha(curve.colour < -1 ? 0.7 : 1.0));
-  if (curve.mark == Mark::kDots) return draw_dots(canvas, frame, curve, font_size * 0.11);
+  if (curve.mark == Mark::kDots) {
+    const bool few = curve.x.size() <= kFewDots;
+    return draw_dots(canvas, frame, curve, font_size * (few ? 0.2 : 0.11));
+  }
   const double dashes[] = {font_size * 0.45, font_size * 0.3};
   cairo_set_dash(cairo, dashes, curve.mark == Mark::kDashes ? 2 : 0, 0.0);
   cairo_set_line_width(cairo, font_size * (curve.mark == Mark::kDashes ? 0.09 : 0.12));

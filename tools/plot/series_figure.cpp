@@ -50,14 +50,14 @@ const std::vector<double>* column(const FilteredSeries& series, const std::strin
   return found == columns.end() ? nullptr : &found->second;
 }
 
-Panel panel_of(const FilteredSeries& series, const std::string& title, const std::string& y_label,
-               const std::string& name, Mark mark) {
-  Panel panel{.title = title, .x_label = "t [s]", .y_label = y_label};
+Panel panel_of(const FilteredSeries& series, const SeriesLabels& labels, const std::string& title,
+               const std::string& y_label, const std::string& name, Mark mark) {
+  Panel panel{.title = title, .x_label = labels.time, .y_label = y_label};
   int colour = 0;
   for (const std::string& filter : series.filters) {
     const auto* const values = column(series, filter, name);
     if (values == nullptr) continue;
-    panel.curves.push_back({.name = filter,
+    panel.curves.push_back({.name = "",
                             .x = *column(series, filter, "t"),
                             .y = *values,
                             .mark = mark,
@@ -78,15 +78,24 @@ void add_bounds(Panel& panel) {
   }
   if (count == 0) return;
   const double rms = std::sqrt(sum / static_cast<double>(count));
-  panel.levels = {{2.0 * rms, "+ 2 rms"}, {-2.0 * rms, "− 2 rms"}};
+  const std::string whose = panel.curves.size() > 1 ? " of all" : "";
+  panel.levels = {{2.0 * rms, "+ 2 rms" + whose}, {-2.0 * rms, "− 2 rms" + whose}};
 }
 
 /// The panels of one axis; its columns end in `suffix`.
-void add_axis(const FilteredSeries& series, const std::string& suffix, Figure& figure) {
+void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const std::string& suffix,
+              Figure& figure) {
   const std::string& first = series.filters.front();
-  Panel values = panel_of(series, "estimate" + suffix, "x" + suffix, "x" + suffix, Mark::kLine);
+  Panel values = panel_of(series, labels, "estimate" + suffix, labels.value + suffix, "x" + suffix,
+                          Mark::kLine);
+  values.wide = true;
+  for (std::size_t i = 0; i < values.curves.size(); ++i) {  // the colours are those of all panels
+    const auto called = labels.filters.find(series.filters[i]);
+    values.curves[i].name = called == labels.filters.end() ? series.filters[i] : called->second;
+  }
   const std::vector<double>& t = *column(series, first, "t");
-  if (const auto* const z = column(series, first, "z" + suffix)) {
+  const auto* const z = column(series, first, "z" + suffix);
+  if (z != nullptr && labels.shows_measurements) {
     values.curves.insert(values.curves.begin(), {.name = "measured",
                                                  .x = t,
                                                  .y = *z,
@@ -100,11 +109,12 @@ void add_axis(const FilteredSeries& series, const std::string& suffix, Figure& f
   }
   figure.panels.push_back(std::move(values));
   Panel residual =
-      panel_of(series, "residual" + suffix, "z − prior", "residual" + suffix, Mark::kLine);
+      panel_of(series, labels, "residual" + suffix, "z − prior", "residual" + suffix, Mark::kLine);
   add_bounds(residual);
   figure.panels.push_back(std::move(residual));
   if (truth != nullptr) {
-    Panel error = panel_of(series, "error" + suffix, "estimate − truth", "x" + suffix, Mark::kLine);
+    Panel error = panel_of(series, labels, "error" + suffix, "estimate − truth", "x" + suffix,
+                           Mark::kLine);
     for (std::size_t i = 0; i < error.curves.size(); ++i) {
       const auto* const own = column(series, series.filters[i], "truth" + suffix);
       for (std::size_t k = 0; own != nullptr && k < error.curves[i].y.size(); ++k) {
@@ -114,7 +124,7 @@ void add_axis(const FilteredSeries& series, const std::string& suffix, Figure& f
     figure.panels.push_back(std::move(error));
   }
   figure.panels.push_back(
-      panel_of(series, "rate" + suffix, "dx" + suffix, "dx" + suffix, Mark::kLine));
+      panel_of(series, labels, "rate" + suffix, "dx" + suffix, "dx" + suffix, Mark::kLine));
 }
 
 }  // namespace
@@ -125,15 +135,15 @@ bool is_series_file(const std::string& path) {
          !table.column("track_id");
 }
 
-Figure figure_of_series(const std::string& path, const std::string& title) {
+Figure figure_of_series(const std::string& path, const SeriesLabels& labels) {
   const FilteredSeries series = read(path);
-  Figure figure{.title = title, .panels = {}};
+  Figure figure{.title = labels.title, .panels = {}};
   const Columns& columns = series.rows.at(series.filters.front());
   if (columns.contains("x")) {
-    add_axis(series, "", figure);
+    add_axis(series, labels, "", figure);
   } else {
     for (const char* suffix : {"_x", "_y", "_z"}) {
-      if (columns.contains(std::string("x") + suffix)) add_axis(series, suffix, figure);
+      if (columns.contains(std::string("x") + suffix)) add_axis(series, labels, suffix, figure);
     }
   }
   return figure;

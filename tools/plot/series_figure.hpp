@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "tools/plot/figure.hpp"
@@ -9,9 +10,18 @@ namespace ghtrack::plot {
 /// Whether a file is what `ghtrack filter` or a series scene writes.
 bool is_series_file(const std::string& path);
 
+/// What a series is called.
+struct SeriesLabels {
+  std::string title = {};
+  std::string time = "t [s]";
+  std::string value = "x";
+  std::map<std::string, std::string> filters = {};  // by name; others are called by that
+  bool shows_measurements = true;                   // readings of another kind cannot be shown
+};
+
 /// A filtered series: measurements, estimates and truth; residuals with twice their root mean
 /// square; errors, where there is a truth; and the rate. Each axis of a vector has its own panels.
 /// @throws InputError
-Figure figure_of_series(const std::string& path, const std::string& title);
+Figure figure_of_series(const std::string& path, const SeriesLabels& labels = {});
 
 }  // namespace ghtrack::plot

@@ -188,6 +188,20 @@ Panel residuals(const Data& data, const std::string& title, Quantity which, Quan
   return panel;
 }
 
+/// Of all tracks at all times; NaN without any.
+double median_sigma(const Data& data, std::vector<double> ErrorCurves::*sigma) {
+  std::vector<double> all;
+  for (const auto& [name, curves] : data.errors) {
+    for (const double s : curves.*sigma) {
+      if (std::isfinite(s)) all.push_back(s);
+    }
+  }
+  if (all.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
 Panel errors(const Data& data, const std::string& axis, std::vector<double> ErrorCurves::*error,
              std::vector<double> ErrorCurves::*sigma) {
   Panel panel{.title = fmt::format("error in {}", axis),
@@ -216,6 +230,12 @@ Panel errors(const Data& data, const std::string& axis, std::vector<double> Erro
                             .y = curves.*error,
                             .mark = Mark::kLine,
                             .colour = colour});
+  }
+  if (data.tracks.size() > kFew) {  // bands would hide one another
+    const double usual = median_sigma(data, sigma);
+    if (std::isfinite(usual)) {
+      panel.levels = {{usual, "+ sigma (median)"}, {-usual, "− sigma (median)"}};
+    }
   }
   return panel;
 }

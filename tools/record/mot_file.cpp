@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tools/record/kitti_file.hpp"
 #include "tools/record/text_file.hpp"
 
 namespace ghtrack {
@@ -105,6 +106,11 @@ void check_ids(const std::vector<NumberedRow>& rows, MotKind kind, Findings& fin
 
 std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kind,
                                   std::optional<std::int32_t> last_frame) {
+  if (looks_like_kitti_file(path)) {
+    std::vector<MotRow> boxes;
+    for (const KittiRow& row : read_kitti_file(path, kind)) boxes.push_back(row.box);
+    return boxes;
+  }
   const std::string text = read_text_file(path);
   Findings findings(path.string());
   Lines lines(text);
@@ -146,7 +152,8 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;
   split_fields(text, fields, owned);
-  return is_header(fields) || (fields.size() >= kFewestFields && parse_number(fields.front()));
+  return is_header(fields) || (fields.size() >= kFewestFields && parse_number(fields.front())) ||
+         looks_like_kitti_file(path);
 }
 
 void append_mot_row(std::string& text, const MotRow& row) {

@@ -31,15 +31,15 @@ enum class MotKind {
 /// Reads a MOTChallenge text file: rows `frame,id,left,top,width,height[,conf[,x,y,z]]` or, for
 /// ground truth, `…,flag,category,visibility`, in any order of frames, separated by commas with or
 /// without blanks, or by tabs. Empty lines are skipped. Rows come back by frame, in the file's
-/// order. A file without rows is an empty list.
+/// order. A file without rows is an empty list. Labels of KITTI are read as well.
 /// @param last_frame  the length of the sequence if it is known: rows beyond it are errors
 /// @throws InputError naming file, line, what was found and what is allowed
 std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kind,
                                   std::optional<std::int32_t> last_frame = std::nullopt);
 
 /// Whether a file looks like a MOTChallenge file and not like a table of points: its first line has
-/// at least six fields, of numbers or of the names `frame,id,…left,…`. An unreadable or empty file
-/// does not.
+/// at least six fields, of numbers or of the names `frame,id,…left,…`; or like labels of KITTI. An
+/// unreadable or empty file does not.
 bool looks_like_mot_file(const std::filesystem::path& path);
 
 /// Appends `frame,id,left,top,width,height,confidence,-1,-1,-1`. Coordinates have two decimals, as

@@ -1,10 +1,19 @@
 #include "tools/record/run_writer.hpp"
 
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 namespace ghtrack {
+
+TrackColumns innovation_columns() {
+  return {.names = {"s_x", "s_y"}, .append = [](CsvRow& row, const TrackEstimate& track) {
+            for (const int axis : {0, 1}) {
+              row << std::sqrt(track.innovation_covariance(axis, axis));
+            }
+          }};
+}
 
 TrackWriter::TrackWriter(std::filesystem::path path, TrackColumns more)
     : file_(std::move(path)), more_(std::move(more)) {}
@@ -55,13 +64,13 @@ void TrackWriter::keep_partial() {
 }
 
 RunWriter::RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
-                     std::vector<std::string> sensors)
+                     std::vector<std::string> sensors, TrackColumns more_of_tracks)
     : objects_(std::move(objects)),
       sensors_(std::move(sensors)),
       truth_(folder / "truth.csv"),
       detections_(folder / "detections.csv"),
       origins_(folder / "origins.csv"),
-      tracks_(folder / "tracks.csv") {
+      tracks_(folder / "tracks.csv", std::move(more_of_tracks)) {
   truth_.write("t,truth_id,name,kind,x,y,vx,vy,ax,ay\n");
   detections_.write("t,sensor,class,x,y\n");
   origins_.write("t,sensor,x,y,truth_id\n");

@@ -18,6 +18,9 @@ struct TrackColumns {
   std::function<void(CsvRow&, const TrackEstimate&)> append;  // as many cells
 };
 
+/// `s_x,s_y`: the 1-sigma error that the tracker expects of a residual [m].
+TrackColumns innovation_columns();
+
 /// Writes tracks.csv:
 /// `t,track_id,status,filter,x,y,vx,vy,ax,ay,x_pred,y_pred,rx,ry,sigma_x,sigma_y`, and `existence`
 /// where the tracker weighs it. Of several scans at one instant the tracks after the last one are
@@ -47,9 +50,10 @@ class RunWriter final : public RunObserver {
   /// @param folder   must exist
   /// @param sensors  names for the column `sensor`, by index; a sensor without a name is written as
   ///                 its index
+  /// @param more_of_tracks  columns of tracks.csv beside its own
   /// @throws WriteError if a file cannot be made; the other members throw it when writing fails
   RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
-            std::vector<std::string> sensors = {});
+            std::vector<std::string> sensors = {}, TrackColumns more_of_tracks = {});
 
   void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
   void add_tracks(const StepRecord& record) override;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "tools/render/footage.hpp"
 #include "tools/render/plot.hpp"
 #include "tools/render/video.hpp"
 
@@ -25,6 +26,7 @@ class RenderModule {
   virtual ~RenderModule() = default;
   virtual std::unique_ptr<VideoSink> open_video(const VideoOptions& options,
                                                 const SceneDrawing& scene) = 0;
+  virtual std::unique_ptr<FootageSink> open_footage(const FootageOptions& options) = 0;
   virtual void write_plot(const std::filesystem::path& path, const Plot& plot) = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "tools/render/footage_file.hpp"
 #include "tools/render/module.hpp"
 #include "tools/render/plot_picture.hpp"
 #include "tools/render/video_file.hpp"
@@ -22,6 +23,10 @@ class OpenCvModule : public RenderModule {
   std::unique_ptr<VideoSink> open_video(const VideoOptions& options,
                                         const SceneDrawing& scene) override {
     return open_video_file(options, scene);
+  }
+
+  std::unique_ptr<FootageSink> open_footage(const FootageOptions& options) override {
+    return open_footage_file(options);
   }
 
   void write_plot(const std::filesystem::path& path, const Plot& plot) override {

@@ -1,153 +1,25 @@
 #include "tools/render/video_file.hpp"
 
-#include <condition_variable>
-#include <mutex>
-#include <system_error>
-#include <thread>
-
-#include "tools/render/encoder.hpp"
-#include "tools/render/output_path.hpp"
+#include "tools/render/encoded_file.hpp"
 #include "tools/render/picture.hpp"
 
 namespace ghtrack::render {
 
-namespace fs = std::filesystem;
-
 namespace {
-
-/// Encodes one image while the next is drawn. At most one waits: memory stays flat.
-class EncodingThread {
- public:
-  explicit EncodingThread(ImageEncoder& encoder) : encoder_(encoder) {
-    try {
-      thread_ = std::thread([this] { run(); });
-    } catch (const std::system_error&) {
-      // The system gives no thread: encode in between.
-    }
-  }
-
-  ~EncodingThread() { stop(); }
-  EncodingThread(const EncodingThread&) = delete;
-  EncodingThread& operator=(const EncodingThread&) = delete;
-
-  /// Takes the image and gives back another one to draw on.
-  void add(cv::Mat& image) {
-    if (!thread_.joinable()) return encoder_.add(image);
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !is_waiting_ || failure_; });
-    if (failure_) std::rethrow_exception(failure_);
-    std::swap(image, waiting_);
-    is_waiting_ = true;
-    changed_.notify_all();
-  }
-
-  /// Encodes what waits and ends the thread.
-  void finish() {
-    stop();
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  void stop() {
-    {
-      const std::lock_guard lock(mutex_);
-      is_last_ = true;
-      changed_.notify_all();
-    }
-    if (thread_.joinable()) thread_.join();
-  }
-
-  void run() {
-    cv::Mat image;
-    for (;;) {
-      {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return is_waiting_ || is_last_; });
-        if (!is_waiting_) return;
-        std::swap(image, waiting_);
-        is_waiting_ = false;
-        changed_.notify_all();
-      }
-      try {
-        encoder_.add(image);
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        failure_ = std::current_exception();
-        changed_.notify_all();
-        return;
-      }
-    }
-  }
-
-  ImageEncoder& encoder_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  cv::Mat waiting_;
-  bool is_waiting_ = false;
-  bool is_last_ = false;
-  std::exception_ptr failure_;
-  std::thread thread_;
-};
 
 class VideoFile : public VideoSink {
  public:
   VideoFile(const VideoOptions& options, const SceneDrawing& scene)
-      : path_(options.path),
-        partial_(partial_path(options.path)),
-        picture_(options, scene),
-        encoder_(make_encoder(options, partial_)),
-        encoding_(std::make_unique<EncodingThread>(*encoder_)) {}
+      : file_(options), picture_(options, scene) {}
 
-  ~VideoFile() override {
-    encoding_.reset();
-    encoder_.reset();
-    std::error_code ignored;
-    if (!is_wanted_) fs::remove_all(partial_, ignored);
-  }
-
-  void add_frame(const VideoFrame& frame) override {
-    if (frames_ > 0)
-      encoding_->add(image_);  // the picture before: the last one stays here for a poster
-    picture_.draw(frame, image_);
-    ++frames_;
-  }
-
-  void write_poster(const fs::path& path) override {
-    if (frames_ == 0) throw OutputError("cannot write '" + path.string() + "': no frame yet");
-    write_png(path, image_);
-  }
-
-  void finish() override {
-    if (frames_ == 0) throw OutputError("cannot write '" + path_.string() + "': it has no frames");
-    complete();
-    commit_file(partial_, path_);
-    is_wanted_ = true;
-  }
-
-  void keep_partial() override {
-    if (frames_ == 0) return;
-    complete();
-    is_wanted_ = true;
-  }
+  void add_frame(const VideoFrame& frame) override { picture_.draw(frame, file_.next_image()); }
+  void write_poster(const std::filesystem::path& path) override { file_.write_poster(path); }
+  void finish() override { file_.finish(); }
+  void keep_partial() override { file_.keep_partial(); }
 
  private:
-  /// Makes a whole, verified video of the frames so far.
-  void complete() {
-    encoding_->add(image_);
-    encoding_->finish();
-    encoder_->close();
-    const bool is_video = !is_picture_folder(path_) && path_.extension() != ".png";
-    if (is_video) verify_video(partial_, frames_);  // pictures were verified one by one
-  }
-
-  fs::path path_;
-  fs::path partial_;
+  EncodedFile file_;
   Picture picture_;
-  cv::Mat image_;
-  std::size_t frames_ = 0;
-  bool is_wanted_ = false;
-  std::unique_ptr<ImageEncoder> encoder_;
-  std::unique_ptr<EncodingThread> encoding_;
 };
 
 }  // namespace

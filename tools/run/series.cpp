@@ -17,6 +17,7 @@ std::vector<SeriesMeasurement> measure(const GivenSeries& series, double, std::u
   for (std::size_t i = 0; i < series.measurements.size(); ++i) {
     measurements.push_back({series.measurements[i], std::nullopt});
     if (!series.truth.empty()) measurements.back().truth = series.truth[i];
+    if (!series.times.empty()) measurements.back().time = series.times[i];
   }
   return measurements;
 }
@@ -108,11 +109,14 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const SeriesMeasurement& now = measurements[i];
     const bool is_guess = i == 0 && guess_is_first;
-    if (!is_guess) std::visit([dt](auto& f) { f.predict(dt); }, filter);
+    const bool is_timed = i > 0 && now.time && !config.dt;
+    const double step = is_timed ? *now.time - *measurements[i - 1].time : dt;
+    // A second measurement at the same time corrects without a step.
+    if (!is_guess && step > 0.0) std::visit([step](auto& f) { f.predict(step); }, filter);
     const Kinematics<1> prior = estimate(filter);
     SeriesBelief belief{belief_of(filter), {}};
     std::optional<Vector1> residual;
-    if (!is_guess) {
+    if (!is_guess && !std::isnan(now.z)) {
       std::visit(
           [&](auto& f) {
             if (f.update(Vector1(now.z))) residual = f.residual();
@@ -123,7 +127,8 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
     belief.posterior = belief_of(filter);
     if (!belief.posterior.empty()) track.beliefs.push_back(std::move(belief));
     SeriesRow row{.k = static_cast<int>(i) + 1,
-                  .t = scene.dt * static_cast<double>(i + (guess_is_first ? 0 : 1)),
+                  .t = now.time.value_or(scene.dt *
+                                         static_cast<double>(i + (guess_is_first ? 0 : 1))),
                   .z = now.z,
                   .truth = now.truth,
                   .x_pred = prior.position[0],
@@ -166,11 +171,12 @@ std::vector<SeriesMeasurement> measure(const GeneratedSeries& series, double dt,
 SeriesResult run(const SeriesScene& scene) {
   const std::vector<SeriesMeasurement> measurements = std::visit(
       [&](const auto& series) { return measure(series, scene.dt, scene.seed); }, scene.data);
-  SeriesResult result;
+  SeriesResult result{.measurements = measurements, .tracks = {}, .measurement_rmse = {}};
   MeanSquare errors;
   const bool are_readings = std::holds_alternative<WalkSeries>(scene.data);  // no places
   for (const SeriesMeasurement& measurement : measurements) {
-    if (measurement.truth && !are_readings) errors.add(measurement.z - *measurement.truth);
+    const bool is_comparable = measurement.truth && !are_readings && !std::isnan(measurement.z);
+    if (is_comparable) errors.add(measurement.z - *measurement.truth);
   }
   result.measurement_rmse = errors.root();
   for (const SeriesFilter& filter : scene.filters) {

@@ -13,7 +13,7 @@ namespace ghtrack {
 struct SeriesRow {
   int k = 0;       // number of the measurement, from 1
   double t = 0.0;  // [s]
-  double z = 0.0;
+  double z = 0.0;  // NaN: missed, the row is predicted only
   std::optional<double> truth;
   double x_pred = 0.0, dx_pred = 0.0, ddx_pred = 0.0;  // prior
   std::optional<double> residual;                      // absent where the measurement is not used
@@ -38,15 +38,17 @@ struct SeriesTrack {
   double mai = 0.0;        // mean |z − x_pred| over the measurements used
 };
 
-struct SeriesResult {
-  std::vector<SeriesTrack> tracks;         // in the order of the scene's filters
-  std::optional<double> measurement_rmse;  // √ mean (z − truth)²
-};
-
 /// A measurement before any filter has seen it.
 struct SeriesMeasurement {
-  double z = 0.0;
+  double z = 0.0;  // NaN: missed
   std::optional<double> truth;
+  std::optional<double> time = {};  // [s]; absent: evenly spaced
+};
+
+struct SeriesResult {
+  std::vector<SeriesMeasurement> measurements;
+  std::vector<SeriesTrack> tracks;         // in the order of the scene's filters
+  std::optional<double> measurement_rmse;  // √ mean (z − truth)²
 };
 
 /// Measurements by a law of motion; the noise of a point depends on the seed and its number alone.

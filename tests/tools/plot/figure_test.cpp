@@ -135,7 +135,7 @@ TEST(SeriesFigure, ShowsEstimateResidualErrorAndRate) {
       "filter,k,t,z,x_pred,dx_pred,residual,x,dx,ddx_pred,ddx,truth\na,1,1,2,1,1,1,1.5,1,,,1\n"
       "a,2,2,3,2,1,1,2.5,1,,,2\nb,1,1,2,1,1,1,1.25,1,,,1\nb,2,2,3,2,1,1,2.25,1,,,2\n");
   ASSERT_TRUE(is_series_file(series));
-  const Figure figure = figure_of_series(series, "");
+  const Figure figure = figure_of_series(series);
   EXPECT_THAT(titles_of(figure), ElementsAre("estimate", "residual", "error", "rate"));
   EXPECT_EQ(figure.panels[0].curves.size(), 4U);  // measured, a, b, truth
   EXPECT_THAT(figure.panels[2].curves[1].y, ElementsAre(0.25, 0.25));

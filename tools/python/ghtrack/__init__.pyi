@@ -10,6 +10,7 @@ from ghtrack._program import InputError as InputError
 from ghtrack.experiment import compare as compare
 from ghtrack.experiment import gains as gains
 from ghtrack.experiment import load_scene as load_scene
+from ghtrack.experiment import plot as plot
 from ghtrack.experiment import render as render
 from ghtrack.experiment import run as run
 from ghtrack.experiment import score as score
@@ -20,7 +21,7 @@ from ghtrack.table import Table as Table
 
 __all__ = [
     "EnvironmentFailure", "InputError", "Table", "Tracker", "common", "compare", "discrete_bayes", "gains",
-    "gh", "kalman", "leastsq", "load_scene", "memory", "render", "run", "score", "stats", "track", "tune",
+    "gh", "kalman", "leastsq", "load_scene", "memory", "plot", "render", "run", "score", "stats", "track", "tune",
 ]
 
 def __getattr__(name: str) -> object: ...

@@ -1,11 +1,11 @@
-"""What goes with every filter: a record of its attributes over time."""
+"""What goes with every filter: a record of its attributes over time, the noise of its model."""
 
 import copy
 import inspect
 
 import numpy as np
 
-__all__ = ["Saver"]
+__all__ = ["Q_discrete_white_noise", "Saver"]
 
 
 class Saver:
@@ -94,3 +94,22 @@ class Saver:
 
     def __repr__(self):
         return f"<Saver of {type(self._kf).__name__}: {len(self)} times {' '.join(self.keys)}>"
+
+
+def Q_discrete_white_noise(dim, dt=1.0, var=1.0, block_size=1, order_by_dim=True):
+    """Process noise of a model whose highest derivative is white noise, constant over each step.
+
+    With dim 2, 3 or 4 the noise enters the state as g = (dt²/2, dt), (dt²/2, dt, 1) or
+    (dt³/6, dt²/2, dt, 1), and Q is var g gᵀ (Bar-Shalom, Li & Kirubarajan, ch. 6.3).
+
+    Parameters
+    ----------
+    block_size : how many such states there are side by side
+    order_by_dim : whether the state holds them one after the other (x vx y vy), or derivative by
+        derivative (x y vx vy)
+    """
+    enters = {2: (dt**2 / 2, dt), 3: (dt**2 / 2, dt, 1.0), 4: (dt**3 / 6, dt**2 / 2, dt, 1.0)}
+    if dim not in enters:
+        raise ValueError("dim must be 2, 3 or 4")
+    block = var * np.outer(enters[dim], enters[dim])
+    return np.kron(np.eye(block_size), block) if order_by_dim else np.kron(block, np.eye(block_size))

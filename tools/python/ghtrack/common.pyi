@@ -1,6 +1,12 @@
 from typing import Any
 
-__all__ = ["Saver"]
+from numpy.typing import NDArray
+
+__all__ = ["Q_discrete_white_noise", "Saver"]
+
+def Q_discrete_white_noise(
+    dim: int, dt: float = ..., var: float = ..., block_size: int = ..., order_by_dim: bool = ...
+) -> NDArray[Any]: ...
 
 class Saver:
     properties: list[tuple[str, property]]

@@ -9,7 +9,7 @@ import tempfile
 
 import numpy as np
 
-from ghtrack._program import InputError, call, option_list
+from ghtrack._program import InputError, as_yaml, call, option_list
 from ghtrack.table import Table
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "compare",
     "gains",
     "load_scene",
+    "plot",
     "render",
     "run",
     "score",
@@ -35,11 +36,12 @@ class Scene:
         self.text, self.name = text, name
         # A scene may name files beside it; one that was read from a file stays in its place.
         self._file = pathlib.Path(folder) / name if folder else None
+        self._document = name if folder else f"{name}.yaml"
         with self._as_file() as path:
             call("--quiet", "check", path)
 
     def _as_file(self):
-        return _kept(self._file) if self._file else _written(self.text, f"{self.name}.yaml")
+        return _kept(self._file) if self._file else _written(self.text, self._document)
 
     def __repr__(self):
         return f"<Scene {self.name!r}>"
@@ -67,6 +69,9 @@ def load_scene(source):
     if isinstance(source, Scene):
         return source
     if isinstance(source, dict):
+        given = source.get("given")
+        if isinstance(given, dict) and "file" in given:  # its place is counted from here
+            source = {**source, "given": {**given, "file": os.path.abspath(given["file"])}}
         return Scene(json.dumps(source, indent=1), _file_name(source.get("name", "scene")))
     if isinstance(source, os.PathLike) or "\n" not in source:
         path = pathlib.Path(source)
@@ -93,20 +98,60 @@ def _file_property(name, parse):
     return property(value, doc=f"The content of {name}.")
 
 
+# The columns of a run's tables, in the order of the files.
+_COLUMNS = {
+    "truth": ("t", "truth_id", "name", "kind", "x", "y", "vx", "vy", "ax", "ay"),
+    "detections": ("t", "sensor", "class", "x", "y"),
+    "origins": ("t", "sensor", "x", "y", "truth_id"),
+    "tracks": (
+        *("t", "track_id", "status", "filter", "x", "y", "vx", "vy", "ax", "ay", "x_pred", "y_pred"),
+        *("rx", "ry", "sigma_x", "sigma_y", "existence"),
+    ),
+}
+
+
+def _tables(columns):
+    """The tables of a run that this process has made, which share its memory."""
+    columns["origins"] = columns["detections"]
+    tables = {}
+    for table, names in _COLUMNS.items():
+        found = columns[table]
+        tables[f"{table}.csv"] = Table({name: _column(found[name]) for name in names if name in found})
+    return tables
+
+
+def _column(values):
+    """Numbers as they are; of words the numbers and all of them are given."""
+    if not isinstance(values, tuple):
+        return values
+    numbers, words = values
+    return np.array([*words, ""], dtype=object)[numbers]
+
+
 class Run:
-    """What a run of a scene wrote: tables and metrics, read when they are first asked for.
+    """A run of a scene: tables and metrics.
 
     Attributes
     ----------
-    folder : where the files are; a folder of its own goes when the run does
-    truth, detections, origins, tracks : tables; a series scene has series instead
+    truth, detections, origins, tracks : tables of numpy arrays; a series scene has series instead
     metrics : dict, the content of metrics.json
     summary : the table that the program prints
+    folder : the same as files, which are written when they are first asked for; a folder of its own
+        goes when the run does
     """
 
-    def __init__(self, scene, folder, options, summary, keeper=None):
-        self.scene, self.folder, self.summary = scene, pathlib.Path(folder), summary
-        self._options, self._keeper, self._contents = options, keeper, {}
+    def __init__(self, scene, options, summary, contents, folder=None, keeper=None):
+        self.scene, self.summary = scene, summary
+        self._options, self._contents = options, contents
+        self._folder, self._keeper = folder, keeper
+
+    @property
+    def folder(self):
+        if self._folder is None:
+            self._keeper = tempfile.TemporaryDirectory(prefix="ghtrack-")
+            self._folder = pathlib.Path(self._keeper.name) / "run"
+            _run_program(self.scene, self._folder, self._options)
+        return self._folder
 
     truth = _file_property("truth.csv", Table.from_csv)
     detections = _file_property("detections.csv", Table.from_csv)
@@ -119,6 +164,10 @@ class Run:
         """The annotated video or picture of this run; see render()."""
         return render(self, path, **options)
 
+    def plot(self, path=None, **options):
+        """Tracks or filtered series over time, with residuals and errors; see plot()."""
+        return plot(self, path, **options)
+
     def __repr__(self):
         return f"<Run of {self.scene.name!r}>\n{self.summary}"
 
@@ -126,8 +175,13 @@ class Run:
         return f"<pre>{html.escape(self.summary)}</pre>"
 
 
+def _run_program(scene, folder, options):
+    with scene._as_file() as path:
+        return call("--quiet", "run", path, "--no-video", "-o", folder, *option_list(options))
+
+
 def run(scene, filters=None, seed=None, duration=None, set=None, folder=None):
-    """Simulates, senses, tracks and scores a scene.
+    """Simulates, senses, tracks and scores a scene, with the bits of the program.
 
     Parameters
     ----------
@@ -135,7 +189,7 @@ def run(scene, filters=None, seed=None, duration=None, set=None, folder=None):
     filters : filter by class, such as {"ball": {"gh": {"g": 0.4, "h": 0.1}}}
     seed, duration : instead of the scene's [s]
     set : other keys of the scene to change, such as {"sensors[0].noise": 0.5}
-    folder : where to keep the files; without it they go when the Run does
+    folder : where to keep the files of the run; without it none are written
 
     Returns a Run.
     """
@@ -144,11 +198,26 @@ def run(scene, filters=None, seed=None, duration=None, set=None, folder=None):
     for label, config in (filters or {}).items():
         changes[f"tracker.filters.{label}"] = config
     options = {"seed": seed, "duration": duration, "set": changes}
+    if folder is None:
+        done = _run_here(scene, options)
+        if done is not None:
+            summary, metrics = done.pop("summary"), json.loads(done.pop("metrics"))
+            return Run(scene, options, summary, {**_tables(done), "metrics.json": metrics})
     keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
     folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "run")
-    with scene._as_file() as path:
-        summary = call("--quiet", "run", path, "--no-video", "-o", folder, *option_list(options))
-    return Run(scene, folder, options, summary, keeper)
+    return Run(scene, options, _run_program(scene, folder, options), {}, folder, keeper)
+
+
+def _run_here(scene, options):
+    """The run of a scene with objects in this process; None for a series."""
+    from ghtrack import _world
+
+    changes = [f"{key}={as_yaml(value)}" for key, value in options["set"].items()]
+    changes += [f"--{key}={options[key]}" for key in ("seed", "duration") if options[key] is not None]
+    try:
+        return _world.run(scene.text, scene._document, changes)
+    except _world.SceneError as error:
+        raise InputError(str(error)) from error
 
 
 class Picture:
@@ -170,6 +239,8 @@ class Picture:
     def _repr_html_(self):
         import base64
 
+        if self.path.suffix == ".svg":
+            return self.path.read_text(encoding="utf-8")
         kind = self._VIDEOS.get(self.path.suffix)
         content = base64.b64encode(self.data).decode() if kind or self.path.suffix == ".gif" else None
         if kind:
@@ -198,6 +269,26 @@ def render(run_or_scene, path=None, **options):
     base = run_or_scene._options if of_run else {}
     with scene._as_file() as file:
         call("--quiet", "video", file, "-o", path, *option_list({**base, **options}))
+    return Picture(path, keeper)
+
+
+def plot(source, path=None, **options):
+    """Tracks or a filtered series as a figure, as `ghtrack plot` draws it.
+
+    Parameters
+    ----------
+    source : Run, path of a run's folder, of tracks or of a series, or a Table of these
+    path : file that ends in svg, pdf or png; without it a PNG that goes when the returned value does
+    options : those of the command, such as panels="path,x,y", truth=path, size="column", dark=True
+
+    Returns a Picture.
+    """
+    keeper = None if path else tempfile.TemporaryDirectory(prefix="ghtrack-")
+    path = pathlib.Path(path or pathlib.Path(keeper.name) / "plot.png")
+    if isinstance(source, Run):
+        source = source.folder
+    with _input(source, ("t", "x", "y")) as given:
+        call("plot", given, "-o", path, *option_list(options))
     return Picture(path, keeper)
 
 

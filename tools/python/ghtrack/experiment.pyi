@@ -13,6 +13,7 @@ __all__ = [
     "compare",
     "gains",
     "load_scene",
+    "plot",
     "render",
     "run",
     "score",
@@ -29,11 +30,18 @@ class Scene:
 
 class Run:
     scene: Scene
-    folder: pathlib.Path
     summary: str
     def __init__(
-        self, scene: Scene, folder: str | os.PathLike[str], options: dict[str, Any], summary: str, keeper: Any = ...
+        self,
+        scene: Scene,
+        options: dict[str, Any],
+        summary: str,
+        contents: dict[str, Any],
+        folder: pathlib.Path | None = ...,
+        keeper: Any = ...,
     ) -> None: ...
+    @property
+    def folder(self) -> pathlib.Path: ...
     @property
     def truth(self) -> Table: ...
     @property
@@ -47,6 +55,7 @@ class Run:
     @property
     def metrics(self) -> dict[str, Any]: ...
     def render(self, path: str | os.PathLike[str] | None = ..., **options: Any) -> Picture: ...
+    def plot(self, path: str | os.PathLike[str] | None = ..., **options: Any) -> Picture: ...
 
 class Picture:
     path: pathlib.Path
@@ -72,6 +81,7 @@ def run(
     folder: str | os.PathLike[str] | None = ...,
 ) -> Run: ...
 def render(run_or_scene: Run | _Source, path: str | os.PathLike[str] | None = ..., **options: Any) -> Picture: ...
+def plot(source: Any, path: str | os.PathLike[str] | None = ..., **options: Any) -> Picture: ...
 def gains(rule: str, **options: Any) -> dict[str, Any]: ...
 def track(detections: Any, config: str | os.PathLike[str] | Mapping[str, Any] | None = ..., **options: Any) -> Table: ...
 def score(truth: Any, tracks: Any, **options: Any) -> dict[str, Any]: ...

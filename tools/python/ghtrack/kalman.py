@@ -9,7 +9,7 @@ import numpy as np
 
 from ghtrack._recurrence import described
 
-__all__ = ["FixedLagSmoother", "KalmanFilter", "predict", "update"]
+__all__ = ["FixedLagSmoother", "KalmanFilter", "batch_filter", "predict", "update"]
 
 
 def predict(x, P, F=1.0, Q=0.0, u=0.0, B=1.0, alpha=1.0):
@@ -57,6 +57,27 @@ def _log_likelihood(y, S):
     return float(-0.5 * (log_determinant + (y.T @ np.linalg.solve(S, y))[0, 0]))
 
 
+def batch_filter(x, P, zs, Fs, Qs, Hs, Rs, Bs=None, us=None, update_first=False):
+    """(means, covariances, prior means, prior covariances) over a series, with matrices of each step.
+
+    None among the measurements is a missed one. With update_first each step corrects before it
+    predicts, and the priors are those of the next step.
+    """
+    n = len(zs)
+    Bs = [0.0] * n if Bs is None else Bs
+    us = [0.0] * n if us is None else us
+    rows = []
+    for z, F, Q, H, R, B, u in zip(zs, Fs, Qs, Hs, Rs, Bs, us):
+        if update_first:
+            posterior = update(x, P, z, R, H)
+            prior = x, P = predict(*posterior, F, Q, u, B)
+        else:
+            prior = predict(x, P, F, Q, u, B)
+            posterior = x, P = update(*prior, z, R, H)
+        rows.append((*map(np.copy, posterior), *map(np.copy, prior)))
+    return tuple(np.array(column) for column in zip(*rows))
+
+
 class KalmanFilter:
     """A linear Kalman filter. Set F, H, Q, R, and x and P to begin with.
 
@@ -100,15 +121,35 @@ class KalmanFilter:
             self.x, self.P, z, R, H, return_all=True
         )
 
-    def batch_filter(self, zs):
-        """(means, covariances, prior means, prior covariances) over a series."""
+    def batch_filter(self, zs, update_first=False, saver=None):
+        """(means, covariances, prior means, prior covariances) over a series; see batch_filter()."""
         rows = []
         for z in zs:
-            self.predict()
-            prior = np.copy(self.x), np.copy(self.P)
-            self.update(z)
-            rows.append((np.copy(self.x), np.copy(self.P), *prior))
+            if update_first:
+                self.update(z)
+                posterior = np.copy(self.x), np.copy(self.P)
+                self.predict()
+                prior = np.copy(self.x), np.copy(self.P)
+            else:
+                self.predict()
+                prior = np.copy(self.x), np.copy(self.P)
+                self.update(z)
+                posterior = np.copy(self.x), np.copy(self.P)
+            rows.append((*posterior, *prior))
+            if saver is not None:
+                saver.save()
         return tuple(np.array(column) for column in zip(*rows))
+
+    @property
+    def mahalanobis(self):
+        """Distance of the last measurement from its prediction in sigmas."""
+        y = np.ravel(self.y)
+        return float(np.sqrt(y @ np.linalg.pinv(np.atleast_2d(self.S)) @ y))
+
+    @property
+    def likelihood(self):
+        """Of the last measurement."""
+        return float(np.exp(self.log_likelihood))
 
     def rts_smoother(self, Xs, Ps, Fs=None, Qs=None):
         """(x, P, K, Pp) of the Rauch-Tung-Striebel smoother over the results of batch_filter()."""

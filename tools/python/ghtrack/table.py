@@ -29,7 +29,7 @@ class Table:
             return cls({})
         header, *rows = rows
         columns = zip(*rows) if rows else [()] * len(header)
-        return cls({name: _typed(column) for name, column in zip(header, columns)})
+        return cls({name: _typed(name, column) for name, column in zip(header, columns)})
 
     def to_csv(self):
         """The table as text; numbers read back to the same doubles."""
@@ -82,7 +82,12 @@ class Table:
         return f"<table><thead>{row(self._columns, 'th')}</thead><tbody>{body}</tbody></table>{rest}"
 
 
-def _typed(column):
+_TEXTS = {"name", "kind", "sensor", "class", "status", "filter"}
+
+
+def _typed(name, column):
+    if name in _TEXTS:  # even where all are empty
+        return np.array(column, dtype=object)
     try:
         return np.array([float(entry) if entry else np.nan for entry in column], dtype=float)
     except ValueError:

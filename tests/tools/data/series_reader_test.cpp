@@ -1,0 +1,240 @@
+#include "tools/data/series_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/tools/record/scratch_folder.hpp"
+#include "tools/data/scan_reader.hpp"
+#include "tools/data/time_order.hpp"
+#include "tools/record/errors.hpp"
+
+namespace ghtrack {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Rows as "t:z t:z …"; "-" where there is none.
+std::string rows_of(SeriesReader& reader) {
+  std::string text;
+  while (const auto row = reader.next()) {
+    text += row->time ? fmt::format("{:g}:", *row->time) : "";
+    if (!row->z) text += "-";
+    for (Eigen::Index i = 0; row->z && i < row->z->size(); ++i) {
+      text += fmt::format("{}{:g}", i == 0 ? "" : ",", (*row->z)[i]);
+    }
+    text += " ";
+  }
+  return text;
+}
+
+std::string rows_of(const std::string& content, const ReadOptions& options = {},
+                    SeriesTimes times = SeriesTimes::kIfThere) {
+  const ScratchFolder folder;
+  SeriesReader reader(folder.write("in.csv", content).string(), options, times);
+  return rows_of(reader);
+}
+
+// Derived: the names that ghtrack promises come first, then those that people give.
+TEST(SeriesReader, FindsWhatIsMeasured) {
+  EXPECT_EQ(rows_of("1\n2\n3\n"), "1 2 3 ");
+  EXPECT_EQ(rows_of("z\n1\n\n3\n"), "1 - 3 ");
+  EXPECT_EQ(rows_of("weight\n1\nNA\n3\n"), "1 - 3 ");
+  EXPECT_EQ(rows_of("x,z,y0\n9,1,9\n9,2,9\n"), "1 2 ");
+  EXPECT_EQ(rows_of("zx,zy\n1,2\n3,4\n"), "1,2 3,4 ");
+  EXPECT_EQ(rows_of("x,y,z\n1,2,3\n"), "1,2,3 ");
+  EXPECT_EQ(rows_of("east,north\n1,2\n3,\n"), "1,2 - ");
+  EXPECT_EQ(rows_of("t,height\n0,5\n1,6\n"), "0:5 1:6 ");
+  EXPECT_EQ(rows_of("sensor,t,bearing (deg)\na,0,350\na,1,355\n"), "0:350 1:355 ");
+  EXPECT_EQ(rows_of("t,a,b\n0,5,7\n1,6,8\n", {.columns = "z=b"}), "0:7 1:8 ");
+  EXPECT_EQ(rows_of("date,steps\n1970-01-01,5\n1970-01-02,6\n"), "0:5 86400:6 ");
+}
+
+// Derived: times that are not asked for are used only where nothing else says how rows are spaced.
+TEST(SeriesReader, TakesTimesWhereTheyAreWanted) {
+  EXPECT_EQ(rows_of("t,z\n0,1\n2,2\n"), "0:1 2:2 ");
+  EXPECT_EQ(rows_of("t,z\n0,1\n2,2\n", {}, SeriesTimes::kIfAsked), "1 2 ");
+  EXPECT_EQ(rows_of("s,z\n0,1\n2,2\n", {.columns = "", .time_column = "s"}, SeriesTimes::kIfAsked),
+            "0:1 2:2 ");
+  EXPECT_EQ(rows_of("dt,t,z\n1,0,1\n1,2,2\n"), "1 2 ");
+  EXPECT_EQ(rows_of("frame,z\n0,1\n15,2\n"), "1 2 ");
+  EXPECT_EQ(rows_of("frame,z\n0,1\n15,2\n", {.columns = "", .frame_rate = 30.0}), "0:1 0.5:2 ");
+}
+
+/// One way of writing the same three rows 0 s, 0.25 s and 0.5 s with 1.5, nothing and −2.75 m.
+struct Writing {
+  std::string separator;
+  bool decimal_comma;
+  std::string header_time, header_place;
+  double time_scale, place_scale;  // in one second, in one metre
+  std::string time_format;         // number, epoch, iso, blank-iso
+  bool quoted, byte_order_mark, carriage_return, comments;
+};
+
+std::string number(double value, bool comma) {
+  std::string text = fmt::format("{}", value);
+  if (comma) std::replace(text.begin(), text.end(), '.', ',');
+  return text;
+}
+
+std::string written(const Writing& w, bool two_axes) {
+  const std::string end = w.carriage_return ? "\r\n" : "\n";
+  const auto cell = [&](const std::string& text) { return w.quoted ? "\"" + text + "\"" : text; };
+  std::string text = w.byte_order_mark ? "\xef\xbb\xbf" : "";
+  if (w.comments) text += "# made by a logger" + end;
+  text += cell(w.header_time) + w.separator + cell(w.header_place);
+  if (two_axes) text += w.separator + cell("y" + w.header_place.substr(1));
+  text += end;
+  for (const auto& [t, z] : std::vector<std::pair<double, std::optional<double>>>{
+           {0.0, 1.5}, {0.25, std::nullopt}, {0.5, -2.75}}) {
+    const std::string stamp =
+        w.time_format == "iso"         ? fmt::format("2024-06-11T07:30:{:05.2f}Z", 15 + t)
+        : w.time_format == "blank-iso" ? fmt::format("2024-06-11 09:30:{:05.2f}+02:00", 15 + t)
+        : w.time_format == "epoch"     ? number((1718091015 + t) * w.time_scale, w.decimal_comma)
+                                       : number(t * w.time_scale, w.decimal_comma);
+    const std::string place = z ? number(*z * w.place_scale, w.decimal_comma)
+                                : std::string(w.separator == " " ? "NaN" : w.comments ? "NA" : "");
+    text += cell(stamp) + w.separator + cell(place);
+    if (two_axes) text += w.separator + cell(place);
+    text += end;
+    if (w.comments) text += end + "// a remark" + end;
+  }
+  return text;
+}
+
+std::vector<Writing> writings() {
+  std::vector<Writing> all;
+  int number = 0;
+  for (const std::string separator : {",", ";", "\t", " ", "|"}) {
+    for (const bool comma : {false, true}) {
+      for (const auto& [time, time_scale] : std::vector<std::pair<std::string, double>>{
+               {"t", 1.0}, {"Time (ms)", 1e3}, {"time_us", 1e6}, {"timestamp [s]", 1.0}}) {
+        for (const auto& [place, place_scale] : std::vector<std::pair<std::string, double>>{
+                 {"x", 1.0}, {"x (mm)", 1e3}, {"x[cm]", 1e2}, {"x_km", 1e-3}, {"x / m", 1.0}}) {
+          for (const std::string format : {"number", "epoch", "iso", "blank-iso"}) {
+            ++number;
+            const bool quoted = number % 3 == 0;
+            // A comma cannot be both, unless quotes tell the two apart.
+            if (separator == "," && comma && !quoted) continue;
+            all.push_back({separator, comma, time, place, time_scale, place_scale, format, quoted,
+                           number % 2 == 0, number % 5 < 2, number % 7 < 3});
+          }
+        }
+      }
+    }
+  }
+  return all;
+}
+
+// Property: however a table is written, it says the same to every reader.
+TEST(SeriesReader, UnderstandsEveryWayOfWritingATable) {
+  const ScratchFolder folder;
+  for (const Writing& writing : writings()) {
+    const double start = writing.time_format == "number" ? 0.0 : 1718091015.0;
+    for (const bool two_axes : {false, true}) {
+      const std::string text = written(writing, two_axes);
+      const std::string path = folder.write("in.txt", text).string();
+      try {
+        SeriesReader series(path);
+        ASSERT_EQ(series.axes(), two_axes ? 2U : 1U) << text;
+        std::vector<MeasuredRow> rows;
+        while (auto row = series.next()) rows.push_back(*row);
+        ASSERT_EQ(rows.size(), 3U) << text;
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(*rows[i].time - start, 0.25 * i, 1e-6) << text;
+        EXPECT_NEAR((*rows[0].z)[0], 1.5, 1e-12) << text;
+        EXPECT_FALSE(rows[1].z) << text;
+        EXPECT_NEAR((*rows[2].z)[0], -2.75, 1e-12) << text;
+        if (!two_axes) continue;
+        ScanReader scans(path);
+        std::vector<Scan> seen;
+        for (Scan scan; scans.next(scan);) seen.push_back(scan);
+        ASSERT_EQ(seen.size(), 3U) << text;
+        EXPECT_EQ(seen[0].time, *rows[0].time) << text;
+        EXPECT_EQ(seen[0].detections.at(0).position, Eigen::Vector2d(*rows[0].z)) << text;
+        EXPECT_TRUE(seen[1].detections.empty()) << text;
+      } catch (const InputError& error) {
+        ADD_FAILURE() << error.what() << "\n" << text;
+      }
+    }
+  }
+}
+
+// Property: any order of the rows gives the same series; rows of one time keep theirs.
+TEST(SeriesReader, PutsRowsInOrder) {
+  std::vector<std::string> rows;
+  for (int i = 0; i < 200; ++i) rows.push_back(fmt::format("{},{}\n", i / 2 * 0.5, i));
+  std::string sorted = "t,z\n";
+  for (const std::string& row : rows) sorted += row;
+  std::vector<int> pairs(100);
+  for (int i = 0; i < 100; ++i) pairs[i] = i;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::shuffle(pairs.begin(), pairs.end(), random);
+    std::string shuffled = "t,z\n";
+    for (const int pair : pairs) shuffled += rows[2 * pair] + rows[2 * pair + 1];
+    EXPECT_EQ(rows_of(shuffled), rows_of(sorted));
+  }
+  EXPECT_EQ(rows_of("t,z\n0,1\n2,3\n1,2\n3,4\n4,5\n5,6\n6,7\n7,8\n8,9\n9,10\n"),
+            "0:1 1:2 2:3 3:4 4:5 5:6 6:7 7:8 8:9 9:10 ");
+}
+
+// Derived: a false time is left out with its line; those around it stay.
+TEST(TimeOrder, TellsFalseTimesFromRowsOutOfOrder) {
+  using enum Placing;
+  EXPECT_THAT(placings({0, 1, 5000, 3, 4, 5}), ElementsAre(kKeep, kKeep, kBelied, kKeep, kKeep, kKeep));
+  EXPECT_THAT(placings({0, 1, 2, 3, -700, 5}), ElementsAre(kKeep, kKeep, kKeep, kKeep, kLate, kKeep));
+  EXPECT_THAT(placings({0, 1, 2, 3, 1, 5}), ElementsAre(kKeep, kKeep, kKeep, kKeep, kLate, kKeep));
+  EXPECT_THAT(placings({0, 1, 3, 2, 4, 5}), ::testing::Each(kKeep));
+  EXPECT_THAT(placings({5, 4, 3, 2, 1, 0}), ::testing::Each(kKeep));
+  EXPECT_THAT(placings({0, 1, 2, 0, 1, 2}), ::testing::Each(kKeep));
+  EXPECT_THAT(placings({0, 0, 0}), ::testing::Each(kKeep));
+  EXPECT_TRUE(placings({}).empty());
+}
+
+// Property: all that is wrong is said at once, with line and column, or left out and counted.
+TEST(SeriesReader, RefusesOrLeavesOutWhatIsNoNumber) {
+  const ScratchFolder folder;
+  const std::string path =
+      folder.write("in.csv", "t,z\n0,1\n1,oops\n2,3\nx,4\n4,inf\n5,6,7\n6,7\n").string();
+  try {
+    SeriesReader reader(path);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    for (const char* place : {":3:3: error: 'oops'", ":5:1: error: 'x'", ":6:3: error: 'inf'",
+                              ":7: error: this row has 3 fields"}) {
+      EXPECT_THAT(error.what(), HasSubstr(place));
+    }
+  }
+  SeriesReader reader(path, {.skip_bad_rows = true});
+  EXPECT_EQ(rows_of(reader), "0:1 2:3 6:7 ");
+  EXPECT_EQ(reader.left_out(), 4);
+  EXPECT_EQ(reader.remarks().size(), 4U);
+}
+
+// Derived: degrees become metres; lengths too.
+TEST(SeriesReader, SaysWhatItUnderstood) {
+  const ScratchFolder folder;
+  SeriesReader walk(folder.write("in.csv", "time,lat,lon\n2024-06-11T07:30:00Z,50,8\n"
+                                           "2024-06-11T07:30:01Z,,\n2024-06-11T07:30:02Z,50.001,8\n")
+                        .string());
+  EXPECT_THAT(walk.understood(),
+              HasSubstr("3 rows (commas), t (ISO 8601, as s since 1970) from 'time', zx (m, from "
+                        "degrees) from 'lon', zy (m, from degrees) from 'lat' around latitude 50, "
+                        "longitude 8; 1 rows without a measurement"));
+  EXPECT_FALSE(walk.is_plain());
+  const auto last = [&] {
+    std::optional<MeasuredRow> row, now;
+    while ((now = walk.next())) row = now;
+    return *row->z;
+  }();
+  EXPECT_NEAR(last[1], 111.2, 0.1);
+  EXPECT_TRUE(SeriesReader(folder.write("a.csv", "z\n1\n").string()).is_plain());
+}
+
+}  // namespace
+}  // namespace ghtrack

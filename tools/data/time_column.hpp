@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/data/clock.hpp"
+#include "tools/data/table.hpp"
+
+namespace ghtrack {
+
+/// The columns of a table that hold its times: seconds, other units, dates or numbers of images.
+class TimeColumn {
+ public:
+  /// Whether the table has times: a column of them, or one of images whose rate is known.
+  static bool is_in(const Table& table, const ReadOptions& options);
+
+  /// @throws InputError if the rate of images is needed and not given; a column that is missing is
+  /// a finding of the table
+  TimeColumn(Table& table, const ReadOptions& options);
+
+  /// The time of the present row [s]; absent if it was rejected.
+  std::optional<double> read(Table& table) const;
+
+  /// "t (ms) from 'time'".
+  std::string describe(const Table& table) const;
+
+  /// Whether it is seconds in a column `t`, as ghtrack writes it.
+  bool is_plain(const Table& table) const;
+
+ private:
+  std::size_t column_ = 0;
+  std::optional<std::size_t> date_;  // of a time of day
+  std::optional<Clock> clock_;
+};
+
+/// What a column is called in remarks: 'East (m)', or column 3.
+std::string name_of_column(const Table& table, std::size_t column);
+
+}  // namespace ghtrack

@@ -1,0 +1,196 @@
+#include "tools/render/background.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/render/palette.hpp"
+
+namespace ghtrack::render {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kUsualRate = 30.0;  // [Hz]
+constexpr double kLeastRate = 1.0, kMostRate = 240.0;
+
+std::string lower_extension(const fs::path& path) {
+  std::string text = path.extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool is_picture(const fs::path& path) {
+  constexpr std::array<std::string_view, 8> kExtensions = {".png", ".jpg", ".jpeg", ".bmp",
+                                                           ".tif", ".tiff", ".webp", ".ppm"};
+  return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(path)) !=
+         kExtensions.end();
+}
+
+cv::Mat read_picture(const fs::path& path) {
+  cv::Mat image = cv::imread(path.string(), cv::IMREAD_COLOR);
+  if (image.empty()) throw RequestError("'" + path.string() + "' cannot be read as a picture");
+  return image;
+}
+
+void check_size(const fs::path& path, int width, int height) {
+  if (width % 2 == 0 && height % 2 == 0) return;
+  throw RequestError("the background '" + path.string() + "' has " + std::to_string(width) + "x" +
+                     std::to_string(height) + " pixels; both must be even, as H.264 asks: cut off " +
+                     "a row or a column");
+}
+
+class Ground : public Background {
+ public:
+  explicit Ground(const FootageOptions& options)
+      : info_{options.width, options.height, options.fps.value_or(kUsualRate), false, {}} {}
+  const BackgroundInfo& info() const override { return info_; }
+  bool next(cv::Mat& image) override {
+    image.create(info_.height, info_.width, CV_8UC3);
+    image = cv::Scalar(dark::kWorld.blue, dark::kWorld.green, dark::kWorld.red);
+    return true;
+  }
+
+ private:
+  BackgroundInfo info_;
+};
+
+class Map : public Background {
+ public:
+  explicit Map(const FootageOptions& options) : picture_(read_picture(options.background)) {
+    check_size(options.background, picture_.cols, picture_.rows);
+    info_ = {picture_.cols, picture_.rows, options.fps.value_or(kUsualRate), false, {}};
+  }
+  const BackgroundInfo& info() const override { return info_; }
+  bool next(cv::Mat& image) override {
+    picture_.copyTo(image);
+    return true;
+  }
+
+ private:
+  cv::Mat picture_;
+  BackgroundInfo info_;
+};
+
+/// "img_12" before "img_100": runs of digits count as numbers.
+bool comes_before(const fs::path& first, const fs::path& second) {
+  const auto digits_of = [](const fs::path& path) {
+    std::string digits;
+    for (const char c : path.stem().string()) {
+      if (std::isdigit(static_cast<unsigned char>(c)) != 0) digits += c;
+    }
+    digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+    return digits;
+  };
+  const std::string a = digits_of(first), b = digits_of(second);
+  if (a.size() != b.size()) return a.size() < b.size();
+  return a != b ? a < b : first < second;
+}
+
+/// A folder of pictures; the folder of a MOTChallenge sequence has them in img1.
+class Pictures : public Background {
+ public:
+  explicit Pictures(const FootageOptions& options) {
+    const fs::path inner = options.background / "img1";
+    const fs::path& folder = fs::is_directory(inner) ? inner : options.background;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (is_picture(entry.path())) paths_.push_back(entry.path());
+    }
+    if (paths_.empty()) {
+      throw RequestError("the background '" + folder.string() + "' holds no pictures");
+    }
+    std::sort(paths_.begin(), paths_.end(), comes_before);
+    const cv::Mat first = read_picture(paths_.front());
+    check_size(paths_.front(), first.cols, first.rows);
+    info_ = {first.cols, first.rows, options.fps.value_or(kUsualRate), true, paths_.size()};
+  }
+  const BackgroundInfo& info() const override { return info_; }
+  bool next(cv::Mat& image) override {
+    if (at_ == paths_.size()) return false;
+    image = read_picture(paths_[at_]);
+    if (image.cols != info_.width || image.rows != info_.height) {
+      throw RequestError("'" + paths_[at_].string() + "' has another size than the pictures before");
+    }
+    ++at_;
+    return true;
+  }
+
+ private:
+  std::vector<fs::path> paths_;
+  std::size_t at_ = 0;
+  BackgroundInfo info_;
+};
+
+/// A video. Its pictures are shown when their time has come, which phones do not space evenly.
+class Film : public Background {
+ public:
+  explicit Film(const FootageOptions& options) : path_(fs::absolute(options.background)) {
+    const std::vector<int> flags = {cv::CAP_PROP_ORIENTATION_AUTO, 1};
+    if (!video_.open(path_.string(), cv::CAP_FFMPEG, flags) || !read_ahead()) {
+      throw RequestError("the background '" + options.background.string() +
+                         "' is neither a video nor a picture that can be read");
+    }
+    now_ = std::move(ahead_);
+    ends_ = !read_ahead();
+    check_size(options.background, now_.cols, now_.rows);
+    double rate = video_.get(cv::CAP_PROP_FPS);
+    if (!(rate >= kLeastRate && rate <= kMostRate)) rate = kUsualRate;
+    info_ = {now_.cols, now_.rows, rate, true, {}};
+  }
+  const BackgroundInfo& info() const override { return info_; }
+
+  bool next(cv::Mat& image) override {
+    const double time = static_cast<double>(count_) / info_.fps;
+    const double half = 0.5 / info_.fps;
+    while (!ends_ && ahead_time_ <= time + half) {
+      now_ = ahead_.clone();
+      now_time_ = ahead_time_;
+      ends_ = !read_ahead();
+    }
+    if (ends_ && time > now_time_ + half) return false;
+    now_.copyTo(image);
+    ++count_;
+    return true;
+  }
+
+ private:
+  /// The time of the next picture is the container's; where that has none it follows the rate.
+  bool read_ahead() {
+    if (!video_.read(ahead_) || ahead_.empty()) return false;
+    double time = video_.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+    if (read_ == 0) start_ = time;
+    time -= start_;
+    if (read_ > 0 && !(time > ahead_time_)) time = ahead_time_ + 1.0 / kUsualRate;
+    ahead_time_ = time;
+    ++read_;
+    return true;
+  }
+
+  fs::path path_;
+  cv::VideoCapture video_;
+  BackgroundInfo info_;
+  cv::Mat now_, ahead_;
+  double now_time_ = 0.0, ahead_time_ = 0.0, start_ = 0.0;  // [s]
+  std::size_t read_ = 0, count_ = 0;
+  bool ends_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Background> open_background(const FootageOptions& options) {
+  if (options.background.empty()) return std::make_unique<Ground>(options);
+  if (fs::is_directory(options.background)) return std::make_unique<Pictures>(options);
+  if (is_picture(options.background)) return std::make_unique<Map>(options);
+  return std::make_unique<Film>(options);
+}
+
+}  // namespace ghtrack::render

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scenes/schema/series.hpp"
+
+namespace ghtrack {
+
+/// Fills in the measurements, truth and times of a scene that names a file of them; its dt becomes
+/// the typical time between them. Other scenes stay as they are.
+/// @param folder  from which the file's place is counted
+/// @param pause   called while reading; may throw
+/// @return what was read and how, line by line
+/// @throws InputError naming file, line, column, what was found and what is allowed
+std::vector<std::string> read_measurements(SeriesScene& scene, const std::filesystem::path& folder,
+                                           const std::function<void()>& pause = {});
+
+}  // namespace ghtrack
