@@ -151,6 +151,7 @@ struct TrackOptions {
   std::string save_config;        // where to write what was used; empty: nowhere
   std::string output;             // empty: standard output
   bool plots = false;             // also draw them, beside the output
+  bool smooth = false;            // tracks say, too, what is known afterwards
   FilmOptions film;
   std::string evaluation_folder;  // for public evaluation kits; empty: none
   std::string benchmark = "MOT15", split = "train", tracker_name = "ghtrack";

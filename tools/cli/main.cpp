@@ -396,6 +396,9 @@ void add_track(CLI::App& app, TrackOptions& options) {
                    "for data in degrees: also write the columns lat and lon");
   command.add_option("-o,--output", options.output,
                      "file, or folder for several sequences (default: standard output)");
+  command.add_flag("--smooth", options.smooth,
+                   "tracks.csv gets columns with what is known of each row when all is known: "
+                   "x_smooth, y_smooth, vx_smooth and so on");
   command.add_flag("--plots", options.plots,
                    "also draw the tracks, into an .svg of the output's name; of points");
   command.add_option("--video", options.film.output,

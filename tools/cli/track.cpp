@@ -23,6 +23,7 @@
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
 #include "tools/cli/track_film.hpp"
+#include "tools/cli/smoothed_tracks.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/data/formats.hpp"
 #include "tools/data/scan_reader.hpp"
@@ -215,6 +216,15 @@ class GeoTracks {
   std::map<int, GeoTrack> by_id_;
 };
 
+/// The tracker of the data, once all is learned.
+TrackerDesign design_of(const OfflineConfig& config, const ScanSource& scans) {
+  std::vector<SensorTraits> traits;
+  for (const std::string& name : scans.sensors) {
+    traits.push_back(traits_of(config.sensor(name), scans.period > 0.0 ? scans.period : 1.0));
+  }
+  return TrackerDesign(config.tracker, traits);
+}
+
 void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& times,
                const Manners& manners) {
   ScanReader reader = times.of(StageTimes::kRead, [&] {
@@ -225,6 +235,9 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   const bool geographic = is_geographic_file(options.output);
   if ((options.degrees || geographic) && !summary.origin) {
     throw UsageError("track: --degrees, GPX and GeoJSON need data in degrees");
+  }
+  if (options.smooth && geographic) {
+    throw UsageError("track: --smooth adds columns to CSV; GPX and GeoJSON have none");
   }
   ScanSource rows{.next =
                       [&](Scan& scan) {
@@ -298,12 +311,29 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   } else {
     TrackColumns columns = geographic_columns(summary.origin, options.degrees);
     if (options.plots) columns = joined(std::move(columns), innovation_columns());
-    TrackWriter writer(output_file(options.output, "tracks.csv"), std::move(columns));
-    track_all([&](const TrackSnapshot& now) {
-      writer.add(now);
-      if (filmed) film.add(now);
-    });
-    times.of(StageTimes::kWrite, [&] { writer.commit(); });
+    const fs::path file = output_file(options.output, "tracks.csv");
+    if (options.smooth) {
+      Scan latest;
+      scans.next = [next = scans.next, &latest](Scan& scan) {
+        const bool is_there = next(scan);
+        if (is_there) latest = scan;
+        return is_there;
+      };
+      TrackHistory history(design_of(config, scans));
+      track_all([&](const TrackSnapshot& now) {
+        history.add(now, now.time == latest.time ? latest : Scan{});
+        if (filmed) film.add(now);
+      });
+      times.of(StageTimes::kWrite,
+               [&] { write_smoothed_tracks(file, history, std::move(columns)); });
+    } else {
+      TrackWriter writer(file, std::move(columns));
+      track_all([&](const TrackSnapshot& now) {
+        writer.add(now);
+        if (filmed) film.add(now);
+      });
+      times.of(StageTimes::kWrite, [&] { writer.commit(); });
+    }
   }
   if (!options.save_config.empty()) {
     write_file(options.save_config, schema::write_configuration(config));

@@ -34,7 +34,7 @@ std::vector<double> ResultColumns::at(std::size_t place) const {
 }
 
 Results::Results(const Campaign& campaign, std::filesystem::path folder)
-    : folder_(std::move(folder)), runs_(campaign), numbers_(folder_) {
+    : folder_(std::move(folder)), runs_(campaign), numbers_(folder_.string()) {
   std::uint64_t first = 0;
   for (const CampaignCell& cell : campaign.cells) {
     const CellPlace place{.runs = static_cast<std::size_t>(cell.runs()),
@@ -63,7 +63,7 @@ std::vector<double> Results::at(std::size_t cell, int run) const {
 ResultColumns Results::columns(std::size_t cell) const {
   const CellPlace& place = cells_.at(cell);
   const std::size_t most = std::max<std::size_t>(1, kMostTurned / place.width);  // runs at a time
-  NumberFile turned(folder_);
+  NumberFile turned(folder_.string());
   std::vector<double> rows, columns;
   for (std::size_t run = 0; run < place.runs; run += most) {
     const std::size_t runs = std::min(most, place.runs - run);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 
 #include "tools/metrics/best_pairs.hpp"
@@ -85,7 +84,7 @@ void RivalPairs::add_scan(std::span<const Pair> pairs) {
 }
 
 void RivalPairs::write_out() {
-  if (!file_) file_.emplace(std::filesystem::temp_directory_path());
+  if (!file_) file_.emplace();
   file_->write(written_, latest_);
   written_ += latest_.size();
   latest_.clear();

@@ -163,7 +163,7 @@ std::string Laboratory::theory(std::string_view filter) const {
   const RunMetricsOptions scoring = scoring_for(traits_of(scene_.sensors));
   const auto config = read<FilterConfig>(filter);
   const Filter made = make_filter(config, scoring.sigma, scoring.period);
-  const Gains gains = steady_gains(made);
+  const Gains gains = steady_gains(made).value_or(Gains{});
   nlohmann::json json = {{"name", name(made)},         {"gains", gains_text(made)},
                          {"g", gains.g},               {"h", gains.h},
                          {"k", gains.k},               {"order", gains.order},

@@ -1,17 +1,21 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <memory>
 #include <span>
+#include <string>
 
 namespace ghtrack {
 
-/// A file for numbers that has no name, so that it vanishes with its process.
+/// A file for numbers that has no name, so that it vanishes with its process. In a browser, which has
+/// no files, it lies in memory.
 class NumberFile {
  public:
+  /// In the system's folder for such files.
+  NumberFile();
   /// @param folder  where it takes up room
   /// @throws WriteError naming the folder; so do the others
-  explicit NumberFile(const std::filesystem::path& folder);
+  explicit NumberFile(const std::string& folder);
   ~NumberFile();
   NumberFile(NumberFile&& other) noexcept;
   NumberFile(const NumberFile&) = delete;
@@ -23,10 +27,8 @@ class NumberFile {
   void read(std::uint64_t place, std::span<double> numbers) const;
 
  private:
-  [[noreturn]] void fail() const;
-
-  std::filesystem::path folder_;
-  int descriptor_ = -1;
+  struct Store;
+  std::unique_ptr<Store> store_;
 };
 
 }  // namespace ghtrack
