@@ -194,7 +194,7 @@ py::object run_scene(const std::string& text, const std::string& name,
   py::dict result = columns->take();
   result["metrics"] = to_json(report).dump();
   result["summary"] = to_table(report);
-  return std::move(result);
+  return result;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "tools/page/forms.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/schedule.hpp"
+#include "tools/run/series.hpp"
 
 namespace ghtrack::page {
 namespace {

@@ -43,6 +43,7 @@ SyntheticScene::SyntheticScene(int panels)
                     {point_on_slope(-20.0), point_on_slope(180.0)}};
   drawing_.sensors = {{"camera",
                        kRate,
+                       std::nullopt,
                        {Vec2(-5.0, -3.0), Vec2(165.0, -3.0), Vec2(165.0, 70.0), Vec2(-5.0, 70.0)},
                        true}};
   drawing_.wind = [](const Vec2& place, double) { return Vec2(3.0 + 0.05 * place.y(), 0.0); };

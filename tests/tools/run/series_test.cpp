@@ -10,9 +10,10 @@ namespace {
 
 SeriesScene weights() {
   SeriesScene scene;
-  scene.data = GivenSeries{.measurements = {158.0, 164.2, 160.3, 159.9, 162.1, 164.6, 169.6, 167.4,
-                                            166.4, 171.0, 171.2, 172.6},
-                           .truth = {}};
+  GivenSeries given;
+  given.measurements = {158.0, 164.2, 160.3, 159.9, 162.1, 164.6,
+                        169.6, 167.4, 166.4, 171.0, 171.2, 172.6};
+  scene.data = given;
   SeriesFilter filter;
   filter.name = "learned";
   filter.x0 = 160.0;
