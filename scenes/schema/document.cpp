@@ -159,12 +159,6 @@ const std::string& bytes_of_stream(const std::filesystem::path& file, int descri
 
 }  // namespace
 
-const Node::Member* Node::find(std::string_view key) const {
-  const auto member = std::find_if(members.begin(), members.end(),
-                                   [&](const Member& candidate) { return candidate.key == key; });
-  return member == members.end() ? nullptr : &*member;
-}
-
 std::string document_name(const std::filesystem::path& file) {
   return file == "-" ? "standard input" : file.string();
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace ghtrack::schema {
 namespace {
@@ -30,6 +31,27 @@ bool has_leading_zero(std::string_view text) {
   return text.size() > 1 && text[0] == '0' && is_digit(text[1]);
 }
 
+#ifdef __cpp_lib_to_chars
+/// The number that makes up the whole text.
+std::errc real_number(std::string_view text, double& value) {
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  return result.ptr == end ? result.ec : std::errc::invalid_argument;
+}
+#else
+/// The same where the standard library has no std::from_chars() for it yet, as that for WebAssembly.
+std::errc real_number(std::string_view text, double& value) {
+  if (text.find_first_not_of("+-.0123456789eE") != text.npos || text.starts_with('+')) {
+    return std::errc::invalid_argument;
+  }
+  const std::string copy(text);
+  char* end = nullptr;
+  value = std::strtod(copy.c_str(), &end);
+  if (copy.empty() || end != copy.c_str() + copy.size()) return std::errc::invalid_argument;
+  return std::isfinite(value) ? std::errc() : std::errc::result_out_of_range;
+}
+#endif
+
 }  // namespace
 
 std::string shortest(double value) {
@@ -49,13 +71,9 @@ std::string shortest(double value) {
 
 std::errc parse_real(std::string_view text, double& value) {
   if (has_leading_zero(text)) return std::errc::invalid_argument;
-  const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec == std::errc::invalid_argument || result.ptr != end) {
-    return std::errc::invalid_argument;
-  }
-  if (result.ec == std::errc() && !std::isfinite(value)) return std::errc::invalid_argument;
-  return result.ec;
+  const std::errc error = real_number(text, value);
+  if (error == std::errc() && !std::isfinite(value)) return std::errc::invalid_argument;
+  return error;
 }
 
 bool looks_like_other_than_text(std::string_view plain) {

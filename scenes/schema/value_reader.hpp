@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenes/schema/diagnostic.hpp"
-#include "scenes/schema/document.hpp"
+#include "scenes/schema/node.hpp"
 #include "scenes/schema/type.hpp"
 
 namespace ghtrack::schema {

@@ -18,9 +18,11 @@ using Folders = std::vector<std::string>;
 /// What each folder may include, beside itself. A file of a longer path obeys the longest match.
 const std::map<std::string, Folders> kAllowed = {
     {"sim", {}},
-    {"tracker", {"sensors/detection.hpp", "sensors/field_of_view.hpp"}},
-    {"tracker/filters", {"sensors/measurement.hpp"}},
-    {"tracker/filters/filter.hpp", {"tracker/filters", "sensors/detection.hpp"}},
+    {"tracker",
+     {"sensors/detection.hpp", "sensors/field_of_view.hpp", "sim/portable_math.hpp"}},
+    {"tracker/filters", {"sensors/measurement.hpp", "sim/portable_math.hpp"}},
+    {"tracker/filters/filter.hpp",
+     {"tracker/filters", "sensors/detection.hpp", "sim/portable_math.hpp"}},
     {"sensors/detection.hpp", {"sensors/field_of_view.hpp", "sensors/measurement.hpp"}},
     {"sensors/field_of_view.hpp", {}},
     {"sensors", {"sim/truth.hpp", "sim/random.hpp", "sim/portable_math.hpp"}},
@@ -39,9 +41,9 @@ const std::map<std::string, Folders> kAllowed = {
     {"tools/film",
      {"tools/run", "tools/metrics", "tools/record", "tools/render", "scenes", "sim", "sensors",
       "tracker"}},
-    {"tools/view",
-     {"tools/film", "tools/run", "tools/record", "tools/render", "scenes", "sim", "sensors",
-      "tracker"}},
+    {"tools/page",
+     {"tools/film", "tools/html", "tools/metrics", "tools/run", "tools/record", "tools/render",
+      "scenes", "sim", "sensors", "tracker"}},
     {"tools/experiment",
      {"tools/run", "tools/metrics", "tools/record", "scenes", "sim", "sensors", "tracker"}},
     {"tools/plot", {"tools/metrics", "tools/data", "tools/record"}},
@@ -57,7 +59,7 @@ const std::map<std::string, Folders> kAllowed = {
 /// The only folders or files that may include a library's headers.
 const std::map<std::string, Folders> kOwners = {
     {"box2d/", {"sim/collision.cpp", "tools/bench"}},
-    {"opencv2/", {"tools/render", "tools/view", "tools/bench"}},
+    {"opencv2/", {"tools/render", "tools/bench"}},
     {"yaml-cpp/", {"scenes/schema"}},
     {"CLI/", {"tools/cli"}},
     {"kainjow/", {"tools/html/template.cpp"}},

@@ -35,6 +35,14 @@ struct RunOptions {
   std::optional<bool> video;  // overrides what the scene says
   VideoLook look;
   bool compare = false;       // the video shows the filters under `compare`, on the same run
+  bool page = false;          // also write page.html
+
+  /// What chose one of the scenes.
+  SceneOptions scene_of(std::size_t index) const {
+    SceneOptions one = scene;
+    one.files = {scene.files[index]};
+    return one;
+  }
 };
 
 struct VideoCommandOptions {
@@ -71,7 +79,8 @@ struct TuneOptions {
 
 struct ViewOptions {
   SceneOptions scene;
-  std::string screenshot;  // PNG file; empty: none
+  std::string output;  // HTML file; empty: out/<scene name>/page.html
+  bool stay = false;   // no browser is opened
 };
 
 struct FilterCommandOptions {
@@ -142,7 +151,7 @@ struct ScoreOptions {
 // Each command returns the exit code, or throws what main() turns into one.
 int run(const RunOptions& options, const Manners& manners);
 int video(const VideoCommandOptions& options, const Manners& manners);
-int view(const ViewOptions& options);
+int view(const ViewOptions& options, const Manners& manners);
 int compare(const CompareOptions& options, const Manners& manners);
 int tune(const TuneOptions& options, const Manners& manners);
 int check(const SceneOptions& options, const Manners& manners);

@@ -157,6 +157,8 @@ void add_run(CLI::App& app, RunOptions& options) {
   add_look(command, options.look);
   command.add_flag("--compare", options.compare,
                    "let the video show the filters under compare, side by side on the same run");
+  command.add_flag("--page", options.page,
+                   "also write page.html, on which the scene can be played with in a browser");
   command.footer(
       "Examples:\n"
       "  ghtrack run scenes/three_regimes.yaml\n"
@@ -248,15 +250,17 @@ void add_tune(CLI::App& app, TuneOptions& options) {
 
 void add_view(CLI::App& app, ViewOptions& options) {
   CLI::App& command = *app.add_subcommand(
-      "view", "Play a scene in a window with sliders for gains, initial guess and noise");
+      "view", "Write a web page on which a scene can be played with, and open it");
   add_scene_options(command, options.scene, false);
-  command.add_option("--screenshot", options.screenshot,
-                     "write the first picture shown to this PNG file and end");
+  command.add_option("-o,--output", options.output,
+                     "HTML file (default: out/<scene name>/page.html)");
+  command.add_flag("--no-open", options.stay, "write the page without opening it in a browser");
   command.footer(
-      "Space plays and pauses, . and , step, 0 goes to the start, q quits; letters switch layers.\n"
+      "The page is one file that works without a network: truth, detections and this very tracker,\n"
+      "with sliders for filters, sensors and association, and two filters side by side.\n"
       "Examples:\n"
       "  ghtrack view scenes/three_regimes.yaml\n"
-      "  ghtrack view scenes/textbook/interactive.yaml");
+      "  ghtrack view scenes/textbook/interactive.yaml -o interactive.html --no-open");
 }
 
 void add_check(CLI::App& app, SceneOptions& options) {
@@ -541,7 +545,7 @@ int dispatch(std::vector<std::string> words) {
   const std::vector<std::pair<const char*, std::function<int()>>> commands = {
       {"run", [&] { return run(run_options, manners); }},
       {"video", [&] { return video(video_options, manners); }},
-      {"view", [&] { return view(view_options); }},
+      {"view", [&] { return view(view_options, manners); }},
       {"compare", [&] { return compare(compare_options, manners); }},
       {"tune", [&] { return tune(tune_options, manners); }},
       {"check", [&] { return check(check_options, manners); }},

@@ -12,6 +12,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/page_file.hpp"
 #include "tools/cli/panels.hpp"
 #include "tools/cli/run_series.hpp"
 #include "tools/cli/run_watch.hpp"
@@ -101,10 +102,6 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   print(to_table(report, terminal_width()));
 }
 
-const std::string& name_of(const Scene& scene) {
-  return std::visit([](const auto& s) -> const std::string& { return s.name; }, scene);
-}
-
 /// Where the results of each scene go. No two scenes may share a folder.
 std::vector<fs::path> folders_of(const RunOptions& options, const std::vector<Scene>& scenes) {
   const std::vector<std::string>& files = options.scene.files;
@@ -135,6 +132,7 @@ int run(const RunOptions& options, const Manners& manners) {
   const std::vector<fs::path> folders = folders_of(options, scenes);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     ResultFolder results(folders[i]);
+    if (options.page) write_page(scenes[i], options.scene_of(i), results.scratch() / "page.html");
     if (const auto* world = std::get_if<WorldScene>(&scenes[i])) {
       run_world(*world, results, options, manners);
     } else {

@@ -1,39 +1,69 @@
-// `ghtrack view`: starts ghtrack-view, which lies beside this program and links what a window
-// needs.
+// `ghtrack view`: a page on which a scene can be played with.
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <spawn.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
+#include <array>
+#include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
-#include <vector>
+#include <variant>
 
 #include "tools/cli/commands.hpp"
+#include "tools/cli/interruption.hpp"
+#include "tools/cli/messages.hpp"
+#include "tools/cli/page_file.hpp"
 #include "tools/cli/scene_source.hpp"
+#include "tools/record/result_folder.hpp"
 
 namespace ghtrack::cli {
+namespace {
 
-int view(const ViewOptions& options) {
+namespace fs = std::filesystem;
+
+bool is_set(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+/// Asks the desktop to show the page. False where there is none to ask.
+bool open_in_browser(const fs::path& page) {
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") && !is_set("BROWSER")) return false;
+  const std::string address = fs::absolute(page).string();
+  std::string opener = "xdg-open", argument = address;
+  const std::array<char*, 3> words = {opener.data(), argument.data(), nullptr};
+  posix_spawn_file_actions_t quietly;
+  ::posix_spawn_file_actions_init(&quietly);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    ::posix_spawn_file_actions_addopen(&quietly, stream, "/dev/null", O_RDWR, 0);
+  }
+  pid_t child = 0;
+  const int failed =
+      ::posix_spawnp(&child, opener.c_str(), &quietly, nullptr, words.data(), environ);
+  ::posix_spawn_file_actions_destroy(&quietly);
+  return failed == 0;
+}
+
+}  // namespace
+
+int view(const ViewOptions& options, const Manners& manners) {
   const std::string& file = options.scene.files.front();
-  load_scene(file, options.scene);  // what is wrong with it is said before any window opens
-  const auto program =
-      std::filesystem::read_symlink("/proc/self/exe").replace_filename("ghtrack-view");
-  std::vector<std::string> words{program.string(), file};
-  for (const std::string& change : options.scene.all_overrides()) {
-    words.insert(words.end(), {"--set", change});
+  const Scene scene = load_scene(file, options.scene);
+  fs::path path = options.output;
+  if (path.empty()) {
+    const fs::path folder = default_folder(name_of(scene), file);
+    make_folder(folder);
+    path = folder / "page.html";
   }
-  if (!options.screenshot.empty()) {
-    words.insert(words.end(), {"--screenshot", options.screenshot});
+  write_page(scene, options.scene, path);
+  if (path == "-") return 0;
+  const bool is_open = !options.stay && open_in_browser(path);
+  if (!manners.quiet) {
+    tell("{}: {}{}", name_of(scene), path.string(),
+         is_open || options.stay ? "" : "; open it in a browser");
   }
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  ::execv(program.c_str(), arguments.data());
-  throw std::runtime_error(fmt::format("view: cannot start '{}': {}; build or install it",
-                                       program.string(), std::strerror(errno)));
+  return 0;
 }
 
 }  // namespace ghtrack::cli

@@ -44,6 +44,13 @@ double strongest_wind(const Wind& wind, const render::Rectangle& area, double du
   return strongest;
 }
 
+/// A radar stands where it measures from; a sensor without a place says so by its default.
+std::optional<Vec2> site_of(const SensorConfig& sensor) {
+  const bool has_place = std::holds_alternative<Radar>(sensor.model) || sensor.half_range ||
+                         sensor.site != Vec2::Zero();
+  return has_place ? std::optional(sensor.site) : std::nullopt;
+}
+
 std::optional<ObjectId> object_named(const std::vector<ObjectInfo>& objects,
                                      const std::optional<std::string>& name) {
   for (const ObjectInfo& object : objects) {
@@ -106,6 +113,7 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, Tru
   for (const SensorConfig& sensor : scene.sensors) {
     drawing.sensors.push_back({.name = sensor.name,
                                .rate = sensor.rate,
+                               .site = site_of(sensor),
                                .field_of_view = outline_of(sensor.view()),
                                .has_clutter = sensor.clutter > 0.0});
   }

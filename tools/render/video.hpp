@@ -71,6 +71,7 @@ struct VideoOptions {
 struct SensorDrawing {
   std::string name;
   double rate = 0.0;                // [Hz]
+  std::optional<Vec2> site;         // where it stands [m]; absent: nowhere in particular
   std::vector<Vec2> field_of_view;  // its corners in order [m]; empty: sees everything
   bool has_clutter = false;
 };

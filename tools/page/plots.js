@@ -1,0 +1,158 @@
+"use strict";
+// Curves over time beside the view; the cursor is the scene's time, a click goes there.
+
+lab.Plot = class {
+  /**
+   * @param curves  () => [{ colour, width, dash, dots, points: [[t, value]…] }], breaks where a value is NaN
+   * @param bands   () => [{ colour, points: [[t, low, high]…] }]
+   */
+  constructor(canvas, state, { unit, floor, xUnit, curves, bands }) {
+    Object.assign(this, { canvas, state, unit, floor, xUnit: xUnit ?? " s", curves, bands: bands ?? (() => []) });
+    this.pen = canvas.getContext("2d");
+    this.still = document.createElement("canvas");
+    const seek = (event) => {
+      if (event.type === "pointermove" && event.buttons === 0) return;
+      const box = canvas.getBoundingClientRect();
+      const share = (event.clientX - box.left - this.left) / (this.right - this.left);
+      state.seek(Math.min(1, Math.max(0, share)) * state.duration);
+    };
+    canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); seek(event); });
+    canvas.addEventListener("pointermove", seek);
+  }
+
+  /** Draws the curves into a picture of their own, which draw() puts below the cursor. */
+  refresh() {
+    const ratio = devicePixelRatio || 1;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0) return;
+    this.canvas.width = this.still.width = Math.round(width * ratio);
+    this.canvas.height = this.still.height = Math.round(height * ratio);
+    this.ratio = ratio;
+    [this.left, this.right, this.top, this.bottom] = [44, width - 8, 8, height - 22];
+    const curves = this.curves(), bands = this.bands();
+    let low = this.floor ?? Infinity, high = -Infinity;
+    for (const { points } of curves) {
+      for (const [, value] of points) {
+        if (!Number.isFinite(value)) continue;
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+    }
+    if (!(high > -Infinity)) [low, high] = [0, 1];
+    if (this.unit === "1") [low, high] = [0, 1.02];
+    if (high === low) { high += 0.5; if (this.floor === undefined) low -= 0.5; }
+    const margin = this.unit === "1" ? 0 : 0.05 * (high - low);
+    high += margin;
+    if (this.floor === undefined) low -= margin;
+    this.x = (t) => this.left + (this.right - this.left) * t / this.state.duration;
+    this.y = (v) => this.bottom - (this.bottom - this.top) * (v - low) / (high - low);
+
+    const { state: { colours } } = this;
+    const pen = this.still.getContext("2d");
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.fillStyle = colours.page;
+    pen.fillRect(0, 0, width, height);
+    pen.font = "12px system-ui, sans-serif";
+    pen.lineWidth = 1;
+    pen.strokeStyle = colours.grid;
+    pen.fillStyle = colours.muted;
+    pen.textAlign = "right";
+    for (const value of lab.ticks(low, high, Math.max(2, height / 45))) {
+      const y = Math.round(this.y(value)) + 0.5;
+      pen.beginPath(); pen.moveTo(this.left, y); pen.lineTo(this.right, y); pen.stroke();
+      pen.fillText(lab.short(value), this.left - 6, y + 4);
+    }
+    pen.textAlign = "center";
+    for (const t of lab.ticks(0, this.state.duration, Math.max(3, width / 90))) {
+      const x = Math.round(this.x(t)) + 0.5;
+      pen.beginPath(); pen.moveTo(x, this.top); pen.lineTo(x, this.bottom); pen.stroke();
+      pen.fillText(`${lab.short(t)}${this.xUnit}`, Math.min(x, this.right - 12), this.bottom + 15);
+    }
+    pen.save();
+    pen.beginPath(); pen.rect(this.left, this.top, this.right - this.left, this.bottom - this.top); pen.clip();
+    for (const { colour, points } of bands) {
+      pen.fillStyle = colour;
+      pen.globalAlpha = 0.16;
+      pen.beginPath();
+      points.forEach(([t, , top]) => pen.lineTo(this.x(t), this.y(top)));
+      [...points].reverse().forEach(([t, bottom]) => pen.lineTo(this.x(t), this.y(bottom)));
+      pen.fill();
+      pen.globalAlpha = 1;
+    }
+    pen.lineJoin = "round";
+    for (const { colour, width: thick, dash, dots, points } of curves) {
+      pen.strokeStyle = pen.fillStyle = colour;
+      if (dots) {
+        for (const [t, value] of points) {
+          pen.beginPath(); pen.arc(this.x(t), this.y(value), 2.6, 0, 2 * Math.PI); pen.fill();
+        }
+        continue;
+      }
+      pen.lineWidth = thick ?? 1.5;
+      pen.setLineDash(dash ?? []);
+      pen.beginPath();
+      let isDown = false;
+      for (const [t, value] of points) {
+        if (!Number.isFinite(value)) { isDown = false; continue; }
+        if (isDown) pen.lineTo(this.x(t), this.y(value)); else pen.moveTo(this.x(t), this.y(value));
+        isDown = true;
+      }
+      pen.stroke();
+    }
+    pen.restore();
+    this.draw();
+  }
+
+  draw() {
+    if (this.still.width === 0 || this.canvas.width !== this.still.width) return;
+    const { pen } = this;
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.drawImage(this.still, 0, 0);
+    pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    const x = this.x(this.state.time);
+    pen.strokeStyle = this.state.colours.accent;
+    pen.lineWidth = 1.5;
+    pen.beginPath(); pen.moveTo(x, this.top); pen.lineTo(x, this.bottom); pen.stroke();
+  }
+};
+
+/** Error of every object's track: distance of estimate and truth at each scan. */
+lab.errorCurves = (state) => {
+  const curves = [];
+  state.result.answers.forEach((answer, which) => {
+    for (const [object, points] of answer.errors) {
+      if (state.selected >= 0 && object !== state.selected) continue;
+      curves.push({ colour: state.colours.of(object), dash: which === 1 ? [5, 4] : [], points });
+    }
+  });
+  return curves;
+};
+
+/** Of the selected track: one column over time, NaN where there is no value. */
+lab.trackCurve = (state, which, value, dash) => {
+  const answer = state.result.answers[which];
+  const rows = answer?.paths.get(state.selectedTrack[which]);
+  if (!rows) return null;
+  const colour = state.colours.of(answer.tracks.get(rows.at(-1), "object"));
+  const points = rows.map((row) => [answer.scans.get(answer.tracks.get(row, "scan"), "time"),
+    value((field) => answer.tracks.get(row, field))]);
+  return { colour, dash, points };
+};
+
+lab.residualCurves = (state) => ["rx", "ry"].flatMap((field, axis) =>
+  [lab.trackCurve(state, 0, (get) => get(field), axis === 1 ? [2, 3] : [])].filter(Boolean));
+
+/** Where 95 % of the residuals are to be expected. */
+lab.residualBand = (state) => {
+  const curve = lab.trackCurve(state, 0, (get) => 1.96 * Math.sqrt(Math.max(get("s_xx"), 0)), []);
+  return curve ? [{ colour: curve.colour, points: curve.points.map(([t, half]) => [t, -half, half]) }] : [];
+};
+
+lab.existenceCurves = (state) => state.result.answers.flatMap((answer, which) =>
+  [...answer.paths].filter(([id]) => state.selected < 0 || id === state.selectedTrack[which])
+    .map(([id, rows]) => ({
+      colour: state.colours.of(answer.tracks.get(rows.at(-1), "object")),
+      dash: which === 1 ? [5, 4] : [],
+      points: rows.map((row) => [answer.scans.get(answer.tracks.get(row, "scan"), "time"),
+        answer.tracks.get(row, "existence")]),
+    })));

@@ -1,0 +1,147 @@
+"use strict";
+// A series of measurements, its filters, and sliders for every number that they have.
+(async () => {
+  const { byId } = lab;
+  const { series: original, command } = JSON.parse(byId("lab-scene").textContent);
+  let engine;
+  try {
+    engine = new lab.Engine(await WebAssembly.compile(lab.bytesOf("lab-wasm")));
+  } catch (error) {
+    byId("lab-failure").hidden = false;
+    byId("lab-failure").textContent = `The filters cannot run in this browser: ${error.message}`;
+    return;
+  }
+  byId("lab-live").hidden = false;
+
+  let series = lab.copy(original);
+  let chosen = series.filters.length - 1;
+  let isDue = false;
+  const state = lab.state = { time: 0, duration: 1, colours: new lab.Palette(), seek(time) { state.time = time; draw(); } };
+
+  const points = (track, column) => track.t.map((t, i) => [t, track[column][i] ?? NaN]);
+  const valueCurves = () => {
+    const { tracks } = state.result;
+    return [{ colour: state.colours.text, dash: [6, 5], points: points(tracks[0], "truth") },
+      ...tracks.map((track, i) => ({ colour: state.colours.of(i), width: i === chosen ? 3 : 1.5, points: points(track, "x") })),
+      { colour: state.colours.muted, dots: true, points: points(tracks[0], "z") }];
+  };
+  const plots = [
+    new lab.Plot(byId("lab-values"), state, { xUnit: "", curves: valueCurves }),
+    new lab.Plot(byId("lab-residuals"), state, { xUnit: "", curves: () => [{ colour: state.colours.of(chosen), points: points(state.result.tracks[chosen], "residual") }] }),
+  ];
+
+  function redraw() {
+    if (isDue) return;
+    isDue = true;
+    requestAnimationFrame(compute);
+  }
+
+  function compute() {
+    isDue = false;
+    byId("lab-problem").textContent = "";
+    try {
+      state.result = engine.runSeries(JSON.stringify(series));
+    } catch (error) {
+      byId("lab-problem").textContent = error.message;
+      return;
+    }
+    state.duration = state.result.tracks[0].t.at(-1);
+    draw();
+    const rows = state.result.tracks.map((track, i) => {
+      const row = document.createElement("tr");
+      const swatch = document.createElement("span");
+      swatch.className = "swatch";
+      swatch.style.color = state.colours.of(i);
+      const name = document.createElement("th");
+      name.scope = "row";
+      name.append(swatch, track.filter);
+      row.append(name);
+      for (const v of [track.gains, track.rmse, track.mai]) {
+        const cell = document.createElement("td");
+        cell.textContent = typeof v === "number" ? lab.short(v) : v ?? "–";
+        cell.title = String(v ?? "");
+        row.append(cell);
+      }
+      return row;
+    });
+    const head = document.createElement("tr");
+    for (const text of ["filter", "gains", "error (RMSE)", "mean |residual|"]) {
+      const cell = document.createElement("th");
+      cell.scope = "col";
+      cell.textContent = text;
+      head.append(cell);
+    }
+    const thead = document.createElement("thead"), body = document.createElement("tbody");
+    thead.append(head);
+    body.append(...rows);
+    byId("lab-scores").replaceChildren(thead, body);
+    const mine = state.result.tracks[chosen];
+    byId("lab-said").textContent = `${mine.t.length} measurements; ${mine.filter}: ` +
+      (mine.rmse === null ? "" : `error ${lab.short(mine.rmse)}, raw ${lab.short(state.result.measurement_rmse)}.`);
+    byId("lab-command").textContent = commandLine();
+  }
+
+  function draw() {
+    byId("lab-values-caption").textContent = `${series.plot.y_label} over ${series.plot.x_label}: truth dashed, measurements as dots, estimates as lines`;
+    for (const plot of plots) plot.refresh();
+  }
+
+  const dataKey = ["generate", "given"].find((key) => original[key]) ?? "";
+
+  function commandLine() {
+    const changes = [];
+    const compare = (path, now, before) => {
+      for (const [key, value] of Object.entries(now)) {
+        if (!lab.same(value, before[key])) changes.push(`--set '${path}.${key}=${lab.flow(value)}'`);
+      }
+    };
+    series.filters.forEach((filter, i) => compare(`filters[${i}]`, filter, original.filters[i]));
+    if (dataKey) compare(dataKey, series[dataKey], original[dataKey]);
+    return [command, ...changes].join(" ");
+  }
+
+  const span = () => {
+    const { z } = state.result.tracks[0];
+    return [Math.min(...z), Math.max(...z)];
+  };
+
+  function sliders(target, keys, prefix) {
+    const [low, high] = span(), reach = Math.max(1, high - low);
+    return keys.filter((key) => typeof target[key] === "number").map((key) => {
+      const value = target[key];
+      const rate = 5 * reach / state.result.tracks[0].t.length;
+      const range = { g: [0, 2, "fine"], h: [0, 2, "fine"], k: [0, 1, "fine"], theta: [0, 0.999, "even"],
+        x0: [low - reach, high + reach, "even"], dx0: [-rate, rate, "even"], ddx0: [-rate, rate, "even"],
+        noise: [0, Math.max(1, 4 * value), "fine"], rate: [-rate, rate, "even"], acceleration: [-30, 30, "even"],
+        start: [low - reach, high + reach, "even"] }[key] ?? [Math.abs(value || 1) / 50, Math.abs(value || 1) * 50, "factors"];
+      return lab.slider({ id: `lab-${prefix}-${key}`, label: key, meaning: "", unit: "",
+        low: Math.min(range[0], value), high: Math.max(range[1], value), scale: range[2], value,
+        onInput: (v) => { target[key] = v; redraw(); } });
+    });
+  }
+
+  function show() {
+    byId("lab-filters").replaceChildren(...series.filters.map((filter, i) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = filter.name;
+      button.setAttribute("aria-pressed", i === chosen);
+      button.addEventListener("click", () => { chosen = i; show(); redraw(); });
+      return button;
+    }));
+    const filter = series.filters[chosen];
+    byId("lab-filter-sliders").replaceChildren(...sliders(filter, Object.keys(filter).filter((key) => key !== "sigma" || /kalman/.test(filter.filter)), "filter"));
+    byId("lab-data").hidden = dataKey !== "generate";
+    if (dataKey === "generate") {
+      byId("lab-data-sliders").replaceChildren(...sliders(series.generate, ["noise", "rate", "acceleration", "start"], "data"));
+    }
+  }
+
+  byId("lab-controls").addEventListener("submit", (event) => event.preventDefault());
+  byId("lab-reset").addEventListener("click", () => { series = lab.copy(original); show(); redraw(); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { state.colours.refresh(); redraw(); });
+  new ResizeObserver(() => { if (state.result) draw(); }).observe(byId("lab-values"));
+  byId("lab-summary").textContent = `${series.filters.length} filters on the same measurements. Everything is computed here, by the same code as the program's.`;
+  compute();
+  if (state.result) show();
+})();
