@@ -142,7 +142,7 @@ TEST(Laboratory, RefusesWrongSettings) {
   EXPECT_THROW(laboratory.run("{sensors: [], tracker: {}}"), SceneError);
   EXPECT_THROW(laboratory.run("{sensors: [{name: a, nois: 1}], tracker: {}}"), SceneError);
   EXPECT_THROW(laboratory.run("{sensors: [{name: a}], tracker: {filters: {default: {gh: {g: 1, h: 3}}}}}"),
-               std::invalid_argument);
+               SceneError);
   EXPECT_EQ(laboratory.answers().front().tracks.size(), tracks);
 }
 

@@ -19,7 +19,10 @@ ROWS = """
 const [columns, which] = arguments;
 const {tracks, scans} = lab.state.result.answers[which];
 const words = lab.state.result.words;
-return Array.from({length: tracks.length}, (_, row) => columns.map((name) => {
+// Of several scans at one instant the file has what was said after the last.
+const isLast = (scan) => scan + 1 === scans.length || scans.get(scan + 1, "time") !== scans.get(scan, "time");
+return Array.from({length: tracks.length}, (_, row) => row).filter((row) => isLast(tracks.get(row, "scan")))
+  .map((row) => columns.map((name) => {
   const get = (field) => tracks.get(row, field);
   const value = name === "t" ? scans.get(get("scan"), "time") : name === "track_id" ? get("id")
     : name === "status" ? lab.statuses[get("status")] : name === "filter" ? words[get("filter")] : get(name);
