@@ -827,11 +827,19 @@ class Encounter {
       if (gap(at(touching), pair).distance > -kOverlap) return std::nullopt;
     }
     const auto distance = [&](double time) { return gap(at(time), pair).distance; };
-    const auto recedes = [&](double time) {
-      const Instant there = at(time);
-      return parting(there, pair, gap(there, pair)) >= -kParting;
-    };
-    return find_impact(before.time, touching, distance, recedes);
+    if (first.distance > kTouching) {
+      return find_impact(before.time, touching, distance, [](double) { return false; });
+    }
+    // They touch already, and part or stay so for a while.
+    double clear = before.time;
+    for (int i = 0; i < 60 && touching - clear > 1e-13; ++i) {
+      const double middle = 0.5 * (clear + touching);
+      const Instant there = at(middle);
+      const Gap then = gap(there, pair);
+      const bool closes = then.distance < -kOverlap && parting(there, pair, then) < -kParting;
+      (closes ? touching : clear) = middle;
+    }
+    return touching;
   }
 
   const std::vector<Participant>& yielding_;

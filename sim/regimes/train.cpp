@@ -17,6 +17,15 @@ constexpr double kStationBraking = 0.9;  // part of the service brake that a dri
 
 double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
 
+/// Of steel wheels on dry rails (Curtius & Kniffler 1944).
+double dry_adhesion(double speed) { return 7.5 / (3.6 * std::abs(speed) + 44.0) + 0.161; }
+
+/// The deceleration beyond which wheels slide: brakes act on all axles [m/s²].
+double braking_limit(const Train& train, double speed) {
+  const double braked = std::max(train.mass, train.adhesive_mass) / train.mass;
+  return dry_adhesion(speed) * train.adhesion * braked * kStandardGravity / train.rotating_mass;
+}
+
 }  // namespace
 
 TrainModel::TrainModel(const Train& train)
@@ -101,9 +110,8 @@ double TrainModel::build_up(const Brake& brake) const {
 }
 
 double TrainModel::traction_limit(double speed) const {
-  // Curtius & Kniffler 1944, speed in km/h.
-  const double adhesion = 7.5 / (3.6 * std::abs(speed) + 44.0) + 0.161;
-  const double grip = adhesion * train_.adhesion * train_.adhesive_mass * kStandardGravity;
+  const double grip =
+      dry_adhesion(speed) * train_.adhesion * train_.adhesive_mass * kStandardGravity;
   const double by_power = speed == 0.0 ? kNever : train_.max_power / std::abs(speed);
   return std::min({train_.max_force, by_power, grip});
 }
@@ -209,6 +217,7 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
       now = effort_for(now, state.speed[0], active_sum, passive_sum);
     }
   }
+  now.braking = std::min(now.braking, braking_limit(train_, state.speed[0]));
   active[0] += now.force;
   if (train_.couplers) add_coupler_forces(state, active);
 
