@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace ghtrack {
 namespace {
@@ -87,8 +88,29 @@ void collect(const std::vector<SensorLook>& looks, Sample& sample) {
   }
 }
 
+/// The greatest number that all of these are multiples of, by Euclid's algorithm; 0 if that is
+/// nothing but what rounding leaves.
+double common_step(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  const double tolerance = 1e-7 * (values.back() - values.front());
+  double step = 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    double a = values[i] - values.front();
+    double b = step;
+    while (b > tolerance) {
+      double rest = std::fmod(a, b);
+      if (b - rest < tolerance) rest = 0.0;
+      a = std::exchange(b, rest);
+    }
+    step = a;
+    if (step > 0.0 && step < 10.0 * tolerance) return 0.0;
+  }
+  return step;
+}
+
 /// Noises to try, evenly spaced by their logarithm over the residuals there are.
-std::vector<double> noises_of(const std::vector<Pair>& pairs) {
+/// @param rounding  the step of the places
+std::vector<double> noises_of(const std::vector<Pair>& pairs, double rounding) {
   constexpr int kNoises = 16;
   std::vector<double> residuals;
   double longest = 0.0;
@@ -97,7 +119,8 @@ std::vector<double> noises_of(const std::vector<Pair>& pairs) {
     longest = std::max(longest, residuals.back());
   }
   std::sort(residuals.begin(), residuals.end());
-  const double least = std::max(0.3 * residuals[residuals.size() / 20], 1e-9 * longest);
+  const double least = std::max({0.3 * residuals[residuals.size() / 20], 1e-9 * longest,
+                                 rounding / std::sqrt(12.0)});
   const double most = std::max(residuals[residuals.size() * 9 / 10], 2.0 * least);
   std::vector<double> noises;
   for (int i = 0; i < kNoises; ++i) {
@@ -108,6 +131,22 @@ std::vector<double> noises_of(const std::vector<Pair>& pairs) {
 
 }  // namespace
 
+Eigen::Vector2d rounding(std::span<const std::vector<SensorLook>> sensors) {
+  constexpr std::size_t kMost = 1000;
+  std::vector<double> x, y;
+  for (const auto& looks : sensors) {
+    for (const SensorLook& look : looks) {
+      for (const Glimpse& seen : look) {
+        if (x.size() == kMost) break;
+        x.push_back(seen.position.x());
+        y.push_back(seen.position.y());
+      }
+    }
+  }
+  if (x.empty()) return Eigen::Vector2d::Zero();
+  return {common_step(x), common_step(y)};
+}
+
 std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> sensors) {
   Sample sample;
   for (const auto& looks : sensors) collect(looks, sample);
@@ -116,7 +155,7 @@ std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> senso
   std::sort(pairs.begin(), pairs.end(),
             [](const Pair& a, const Pair& b) { return a.speed < b.speed; });
   Scales best;
-  for (const double noise : noises_of(pairs)) {
+  for (const double noise : noises_of(pairs, rounding(sensors).maxCoeff())) {
     if (!(noise > 0.0)) continue;
     const double variance = noise * noise;
     for (const double share : kShares) {

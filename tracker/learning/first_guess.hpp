@@ -24,6 +24,10 @@ struct Scales {
   double evidence = 0.0;  // ln of how much likelier this is than that nothing moves on
 };
 
+/// The step that places are rounded to on each axis [m], such as whole pixels; 0 if there is none.
+/// No noise smaller than a part of it can be told: a rounded place has an error of step / √12.
+Eigen::Vector2d rounding(std::span<const std::vector<SensorLook>> sensors);
+
 /// Finds the scales of noise and speed without a tracker and without units, from three looks in
 /// turn: a detection b, one before it, a, and the nearest to where the line from a to b leads, c.
 /// Of a target the residual, divided by its factor f = √(1 + (1 + α)² + α²), α the ratio of the

@@ -93,6 +93,7 @@ class Learner {
       if (!seen[s].isEmpty()) seen_.back() = seen[s].sizes();
       interval_ = s == 0 ? sensors[s].period : std::min(interval_, sensors[s].period);
     }
+    least_noise_ = (rounding(looks()) / std::sqrt(12.0)).cwiseMax(1e-6 * extent_);
   }
 
   LearnedTracker run() {
@@ -172,7 +173,7 @@ class Learner {
   Parameters begin() const {
     const auto scales = first_guess(looks());
     const double fallback = extent_ > 0.0 ? 0.01 * extent_ : 1.0;
-    double noise = std::max(scales ? scales->noise : fallback, 1e-6 * extent_);
+    double noise = std::max(scales ? scales->noise : fallback, least_noise_.maxCoeff());
     if (said_.front().noise) noise = std::sqrt(said_.front().noise->prod());
     Parameters p;
     p.motion.initial_speed =
@@ -352,9 +353,8 @@ class Learner {
     interval_ = std::max(median(intervals, interval_), 1e-9 * interval_);
     next.motion = fit_motion(pass.paths, before.motion, interval_, first).model;
     for (LearnedMotion::Noise& noise : next.motion.noise) {
-      for (Learned* axis : {&noise.x, &noise.y}) {
-        if (!axis->is_given) axis->value = std::max(axis->value, 1e-6 * extent_);
-      }
+      if (!noise.x.is_given) noise.x.value = std::max(noise.x.value, least_noise_.x());
+      if (!noise.y.is_given) noise.y.value = std::max(noise.y.value, least_noise_.y());
     }
     const LearnedMotion::Noise& noise = next.motion.noise.front();
     next.motion.initial_speed = std::max(
@@ -468,6 +468,7 @@ class Learner {
   std::vector<Eigen::Vector2d> seen_;       // of each sensor: the sides of the box of detections
   double detections_ = 0.0;
   double extent_ = 0.0;    // the longest side
+  Eigen::Vector2d least_noise_ = Eigen::Vector2d::Zero();  // that places can tell
   double interval_ = 1.0;  // typical time between two detections of a target
   int passes_ = 0;
 };
