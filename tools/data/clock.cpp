@@ -185,21 +185,21 @@ Clock::Clock(const std::optional<Unit>& unit, std::string_view first, char point
     kind_ = Kind::kDateTime;
     meaning_ = "ISO 8601, as s since 1970";
   } else if (frame_rate) {
-    divisor_ = *frame_rate;
+    scale_ = Scale::of_parts(*frame_rate);
     meaning_ = fmt::format("frames at {:g} Hz", *frame_rate);
   } else if (unit && unit->is_time) {
     meaning_ = unit->name;
-    (unit->scale < 1.0 ? divisor_ : multiplier_) =
-        unit->scale < 1.0 ? std::round(1.0 / unit->scale) : unit->scale;
+    scale_ = Scale(unit->scale);
   } else {
     // Without a unit, a number can be a time since 1970 only if as seconds it would lie thousands
     // of years ahead.
     const double size = std::abs(number.value_or(0.0));
     constexpr double kEpochSeconds = 1e8;
-    divisor_ = size > 1e17 ? 1e9 : size > 1e14 ? 1e6 : size > 1e11 ? 1e3 : 1.0;
-    meaning_ = divisor_ == 1e9   ? "ns since 1970"
-               : divisor_ == 1e6 ? "µs since 1970"
-               : divisor_ == 1e3 ? "ms since 1970"
+    const double parts = size > 1e17 ? 1e9 : size > 1e14 ? 1e6 : size > 1e11 ? 1e3 : 1.0;
+    scale_ = Scale::of_parts(parts);
+    meaning_ = parts == 1e9           ? "ns since 1970"
+               : parts == 1e6         ? "µs since 1970"
+               : parts == 1e3         ? "ms since 1970"
                : size > kEpochSeconds ? "s since 1970"
                                       : "s";
   }
@@ -210,7 +210,7 @@ std::optional<double> Clock::seconds(std::string_view time) const {
   if (kind_ == Kind::kTimeOfDay) return parse_time_of_day(time);
   const std::optional<double> number = parse_number(time, point_);
   if (!number) return std::nullopt;
-  return *number * multiplier_ / divisor_;
+  return scale_(*number);
 }
 
 std::optional<double> Clock::seconds(std::string_view date, std::string_view time) const {

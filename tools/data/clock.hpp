@@ -51,8 +51,7 @@ class Clock {
   enum class Kind { kNumber, kDateTime, kTimeOfDay };
 
   Kind kind_ = Kind::kNumber;
-  double multiplier_ = 1.0;
-  double divisor_ = 1.0;  // of the two one is 1, so that 33 ms are 0.033 s to the last digit
+  Scale scale_;
   char point_ = '.';
   std::string meaning_;
 };

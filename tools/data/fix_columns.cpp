@@ -9,9 +9,9 @@
 namespace ghtrack {
 namespace {
 
-double scale_of(const Table& table, std::size_t column) {
+Scale scale_of(const Table& table, std::size_t column) {
   const auto& unit = table.headings()[column].unit;
-  return unit && !unit->is_time ? unit->scale : 1.0;
+  return unit && !unit->is_time ? Scale(unit->scale) : Scale();
 }
 
 std::string unit_of(const Table& table, std::size_t column) {
@@ -41,8 +41,8 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
     // An error without a unit of its own is in that of the position.
     const auto& x_unit = table.headings()[*sigma_x_].unit;
     const auto& y_unit = table.headings()[*sigma_y_].unit;
-    sigma_x_scale_ = x_unit ? x_unit->scale : x_scale_;
-    sigma_y_scale_ = y_unit ? y_unit->scale : y_scale_;
+    sigma_x_scale_ = x_unit ? Scale(x_unit->scale) : x_scale_;
+    sigma_y_scale_ = y_unit ? Scale(y_unit->scale) : y_scale_;
   }
 }
 
@@ -61,7 +61,7 @@ std::optional<Fix> FixColumns::read(Table& table) {
     return fix;
   }
   if (!geographic_) {
-    fix.position = Eigen::Vector2d(*x * x_scale_, *y * y_scale_);
+    fix.position = Eigen::Vector2d(x_scale_(*x), y_scale_(*y));
     return fix;
   }
   const GeoPoint point{.latitude = *y, .longitude = *x};
@@ -79,7 +79,7 @@ std::optional<Eigen::Vector2d> FixColumns::sigma(const Table& table) const {
   const auto x = table.number(*sigma_x_);
   const auto y = table.number(*sigma_y_);
   if (!x || !y || !(*x > 0.0) || !(*y > 0.0)) return std::nullopt;
-  return Eigen::Vector2d(*x * sigma_x_scale_, *y * sigma_y_scale_);
+  return Eigen::Vector2d(sigma_x_scale_(*x), sigma_y_scale_(*y));
 }
 
 std::string FixColumns::describe(const Table& table) const {

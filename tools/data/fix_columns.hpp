@@ -41,7 +41,7 @@ class FixColumns {
   TimeColumn time_;
   std::size_t x_ = 0, y_ = 0;
   std::optional<std::size_t> sigma_x_, sigma_y_;
-  double x_scale_ = 1.0, y_scale_ = 1.0, sigma_x_scale_ = 1.0, sigma_y_scale_ = 1.0;
+  Scale x_scale_, y_scale_, sigma_x_scale_, sigma_y_scale_;
   bool geographic_ = false;
   std::optional<GeoPoint> origin_;
 };

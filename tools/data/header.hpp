@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -38,6 +39,28 @@ struct Unit {
   std::string name;      // as it is written
   double scale = 1.0;    // SI units in one of it
   bool is_time = false;  // seconds, otherwise metres
+};
+
+/// Turns values of a unit into SI units; fractions by division, so that 33 mm are 0.033 m to the
+/// last digit.
+class Scale {
+ public:
+  Scale() = default;
+  explicit Scale(double si_units_in_one) {
+    const double parts = std::round(1.0 / si_units_in_one);
+    const bool is_fraction = parts > 1.0 && std::abs(parts * si_units_in_one - 1.0) < 1e-12;
+    (is_fraction ? divisor_ : multiplier_) = is_fraction ? parts : si_units_in_one;
+  }
+  /// So many of them make one.
+  static Scale of_parts(double parts) {
+    Scale scale;
+    scale.divisor_ = parts;
+    return scale;
+  }
+  double operator()(double value) const { return value * multiplier_ / divisor_; }
+
+ private:
+  double multiplier_ = 1.0, divisor_ = 1.0;  // one of them is 1
 };
 
 /// The column of a table as its header cell tells it.

@@ -80,11 +80,12 @@ bool is_filtered(const Table& table) {
 /// A column of numbers in a unit.
 struct Quantity {
   std::size_t column = 0;
-  double scale = 1.0;
+  Scale scale;
 
-  Quantity(const Table& table, std::size_t index, double usual_scale = 1.0) : column(index) {
+  Quantity(const Table& table, std::size_t index, const Scale& usual = {})
+      : column(index), scale(usual) {
     const auto& unit = table.headings()[index].unit;
-    scale = unit && !unit->is_time ? unit->scale : usual_scale;
+    if (unit && !unit->is_time) scale = Scale(unit->scale);
   }
 };
 
@@ -218,7 +219,7 @@ struct SeriesReader::State {
     for (std::size_t i = 0; i < quantities.size(); ++i) {
       const auto number = optional_number(quantities[i].column);
       complete = complete && number.has_value();
-      all[static_cast<Eigen::Index>(i)] = number.value_or(0.0) * quantities[i].scale;
+      all[static_cast<Eigen::Index>(i)] = quantities[i].scale(number.value_or(0.0));
     }
     return complete ? std::optional(all) : std::nullopt;
   }

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kUsualRate = 30.0;  // [Hz]
 constexpr double kLeastRate = 1.0, kMostRate = 240.0;
+constexpr double kTolerance = 0.1;  // how early a picture may be shown, in periods
 
 std::string lower_extension(const fs::path& path) {
   std::string text = path.extension().string();
@@ -134,42 +135,45 @@ class Pictures : public Background {
 class Film : public Background {
  public:
   explicit Film(const FootageOptions& options) : path_(fs::absolute(options.background)) {
-    const std::vector<int> flags = {cv::CAP_PROP_ORIENTATION_AUTO, 1};
-    if (!video_.open(path_.string(), cv::CAP_FFMPEG, flags) || !read_ahead()) {
+    const bool is_open = video_.open(path_.string(), cv::CAP_FFMPEG);
+    if (is_open) video_.set(cv::CAP_PROP_ORIENTATION_AUTO, 1);
+    const double rate = is_open ? video_.get(cv::CAP_PROP_FPS) : 0.0;
+    info_.fps = rate >= kLeastRate && rate <= kMostRate ? rate : kUsualRate;
+    info_.moves = true;
+    if (!is_open || !read_ahead()) {
       throw RequestError("the background '" + options.background.string() +
                          "' is neither a video nor a picture that can be read");
     }
     now_ = std::move(ahead_);
     ends_ = !read_ahead();
     check_size(options.background, now_.cols, now_.rows);
-    double rate = video_.get(cv::CAP_PROP_FPS);
-    if (!(rate >= kLeastRate && rate <= kMostRate)) rate = kUsualRate;
-    info_ = {now_.cols, now_.rows, rate, true, {}};
+    info_.width = now_.cols;
+    info_.height = now_.rows;
   }
   const BackgroundInfo& info() const override { return info_; }
 
   bool next(cv::Mat& image) override {
     const double time = static_cast<double>(count_) / info_.fps;
-    const double half = 0.5 / info_.fps;
-    while (!ends_ && ahead_time_ <= time + half) {
+    while (!ends_ && ahead_time_ <= time + kTolerance / info_.fps) {
       now_ = ahead_.clone();
       now_time_ = ahead_time_;
       ends_ = !read_ahead();
     }
-    if (ends_ && time > now_time_ + half) return false;
+    if (ends_ && time > now_time_ + 0.5 / info_.fps) return false;
     now_.copyTo(image);
     ++count_;
     return true;
   }
 
  private:
-  /// The time of the next picture is the container's; where that has none it follows the rate.
+  /// The time of the next picture is the container's; where that has none, as OpenCV says of the
+  /// last few, it follows the rate.
   bool read_ahead() {
     if (!video_.read(ahead_) || ahead_.empty()) return false;
     double time = video_.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
     if (read_ == 0) start_ = time;
     time -= start_;
-    if (read_ > 0 && !(time > ahead_time_)) time = ahead_time_ + 1.0 / kUsualRate;
+    if (read_ > 0 && !(time > ahead_time_)) time = ahead_time_ + 1.0 / info_.fps;
     ahead_time_ = time;
     ++read_;
     return true;
