@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "tools/data/series_reader.hpp"
@@ -57,6 +59,24 @@ std::vector<std::string> read_measurements(SeriesScene& scene, const std::filesy
   }
   if (!knows_truth) given->truth.clear();
   return remarks_of(reader);
+}
+
+SeriesScene with_own_measurements(SeriesScene scene) {
+  auto* const given = std::get_if<GivenSeries>(&scene.data);
+  if (given == nullptr || given->file.empty()) return scene;
+  GivenSeries own;
+  const double first = scene.initial_guess == GuessAt::kStepBefore ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < given->measurements.size(); ++i) {
+    if (std::isnan(given->measurements[i])) continue;
+    own.measurements.push_back(given->measurements[i]);
+    if (!given->truth.empty()) own.truth.push_back(given->truth[i]);
+    own.times.push_back(given->times.empty() ? scene.dt * (first + static_cast<double>(i))
+                                             : given->times[i]);
+  }
+  const bool is_whole = own.measurements.size() == given->measurements.size();
+  if (given->times.empty() && is_whole) own.times.clear();
+  *given = std::move(own);
+  return scene;
 }
 
 }  // namespace ghtrack

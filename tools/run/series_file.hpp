@@ -18,4 +18,8 @@ namespace ghtrack {
 std::vector<std::string> read_measurements(SeriesScene& scene, const std::filesystem::path& folder,
                                            const std::function<void()>& pause = {});
 
+/// The same scene with the measurements of its file written out in it; those that were missed are
+/// left out, which their times tell.
+SeriesScene with_own_measurements(SeriesScene scene);
+
 }  // namespace ghtrack
