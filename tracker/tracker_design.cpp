@@ -65,21 +65,21 @@ const Filter& TrackerDesign::filter_for(std::string_view label, int sensor) cons
                                 : filters.find(TrackerConfig::kDefaultFilter)->second;
 }
 
-SingleFilterConfig single_filter(const TrackerConfig& config, const std::string& label,
-                                 const std::string& model) {
-  const auto named = [&](const std::string& name) { return config.filters.find(name); };
-  const auto own = named(label);
-  const auto by_default = named(std::string(TrackerConfig::kDefaultFilter));
+std::vector<SingleFilterConfig> filters_of(const TrackerConfig& config, const std::string& label) {
+  const auto own = config.filters.find(label);
+  const auto by_default = config.filters.find(std::string(TrackerConfig::kDefaultFilter));
   const FilterConfig filter = own != config.filters.end()          ? own->second
                               : by_default != config.filters.end() ? by_default->second
                                                                    : default_filter(config.filters);
   return std::visit(
-      [&](const auto& chosen) -> SingleFilterConfig {
+      [&](const auto& chosen) {
+        std::vector<SingleFilterConfig> filters;
         if constexpr (requires { bank_of(chosen); }) {
-          return bank_of(chosen).at(model);
+          for (const auto& [name, single] : bank_of(chosen)) filters.push_back(single);
         } else {
-          return chosen;
+          filters.push_back(chosen);
         }
+        return filters;
       },
       filter);
 }

@@ -53,8 +53,7 @@ class TrackerDesign {
   std::vector<FiltersByLabel> filters_;  // of each sensor
 };
 
-/// The filter that leads a track of this class, when `model` leads among several (model_name()).
-SingleFilterConfig single_filter(const TrackerConfig& config, const std::string& label,
-                                 const std::string& model);
+/// The filters that a track of this class may be followed with: one, or several side by side or mixed.
+std::vector<SingleFilterConfig> filters_of(const TrackerConfig& config, const std::string& label);
 
 }  // namespace ghtrack

@@ -157,7 +157,7 @@ TEST(Layers, TheRulesTellAllowedFromForbidden) {
   EXPECT_FALSE(is_allowed("tracker/filters/gh.hpp", "tracker/track.hpp"));
   EXPECT_FALSE(is_allowed("tracker/gate.cpp", "sim/truth.hpp"));
   EXPECT_FALSE(is_allowed("tracker/gate.cpp", "sensors/observation.hpp"));
-  EXPECT_TRUE(is_allowed("sim/collision.cpp", "box2d/box2d.h"));
+  EXPECT_TRUE(is_allowed("sim/neighbours.cpp", "box2d/box2d.h"));
   EXPECT_FALSE(is_allowed("sim/world.cpp", "box2d/box2d.h"));
   EXPECT_FALSE(is_allowed("sim/world.cpp", "sensors/detection.hpp"));
   EXPECT_FALSE(is_allowed("tools/metrics/gospa.cpp", "scenes/schema/scene.hpp"));

@@ -14,7 +14,7 @@ import yaml
 # What a schema cannot say: conditions between values, and the text of the file itself.
 BEYOND_A_SCHEMA = {
     "clutter_without_field_of_view", "curve_without_length", "field_of_view_upside_down",
-    "name_with_a_slash", "odd_video_size", "repeated_sensor_name", "repeated_target_name",
+    "name_with_a_slash", "odd_video_size", "sweep_out_of_bounds", "repeated_sensor_name", "repeated_target_name",
     "series_repeated_filter_name", "series_truth_of_another_length", "train_drive_without_time",
     "unstable_gains", "design_of_too_much_noise", "filter_for_no_class", "video_after_the_end", "video_follows_nobody", "video_from_after_to",
     "empty_name", "long_text", "balls_inside_each_other", "camera_sees_the_horizon",

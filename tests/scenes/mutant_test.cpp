@@ -41,7 +41,10 @@ std::vector<Span> numbers_of(const std::string& text) {
       const bool is_number =
           !word.empty() && word.find_first_not_of("0123456789.-") == std::string::npos &&
           word.find_first_of("0123456789") != std::string::npos;
-      if (is_number && !quoted) numbers.push_back({begin + i, word.size()});
+      const std::size_t before = i == 0 ? std::string::npos : line.find_last_not_of(' ', i - 1);
+      const bool begins_a_value =
+          before != std::string::npos && std::string("[{,:").find(line[before]) != std::string::npos;
+      if (is_number && begins_a_value && !quoted) numbers.push_back({begin + i, word.size()});
       i = std::max(last, i + 1);
     }
     begin = end + 1;

@@ -1,6 +1,7 @@
 #include "tools/run/track_history.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ghtrack {
 
@@ -26,7 +27,6 @@ void TrackHistory::add(const TrackSnapshot& now, const Scan& scan) {
     }
     own.moments.push_back(moment);
     own.rows.emplace_back(snapshots_.size(), i);
-    ++own.led[track.model];
   }
   snapshots_.push_back(now);
 }
@@ -37,14 +37,17 @@ std::vector<SmoothedSnapshot> TrackHistory::smoothed() const {
     all.push_back({snapshot, std::vector<Smoothed>(snapshot.tracks.size())});
   }
   for (const auto& [id, track] : tracks_) {
-    const auto leader = std::max_element(
-        track.led.begin(), track.led.end(),
-        [](const auto& a, const auto& b) { return a.second < b.second; });
     const auto [first, index] = track.rows.front();
-    const SingleFilterConfig filter =
-        single_filter(config_, snapshots_[first].tracks[index].label, leader->first);
-    const std::vector<Smoothed> moments =
-        ghtrack::smoothed(filter, sigma_, period_, track.moments);
+    const std::vector<SingleFilterConfig> filters =
+        filters_of(config_, snapshots_[first].tracks[index].label);
+    const auto fit = [&](const SingleFilterConfig& filter) {
+      return filters.size() == 1 ? 0.0 : log_likelihood(filter, sigma_, period_, track.moments);
+    };
+    std::vector<double> fits;
+    std::transform(filters.begin(), filters.end(), std::back_inserter(fits), fit);
+    const auto best = std::max_element(fits.begin(), fits.end()) - fits.begin();
+    const std::vector<Smoothed> moments = ghtrack::smoothed(
+        filters[static_cast<std::size_t>(best)], sigma_, period_, track.moments);
     for (std::size_t i = 0; i < moments.size(); ++i) {
       const auto [snapshot, row] = track.rows[i];
       all[snapshot].smoothed[row] = moments[i];

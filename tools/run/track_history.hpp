@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,7 +19,7 @@ struct SmoothedSnapshot {
 };
 
 /// Keeps what a tracker says, to smooth its tracks when all is known (smoothed()). Of several filters
-/// side by side or mixed, the one that led most often carries a track back.
+/// side by side or mixed, the one that explains a track best carries it back.
 class TrackHistory {
  public:
   explicit TrackHistory(const TrackerDesign& design);
@@ -35,7 +34,6 @@ class TrackHistory {
   struct OneTrack {
     std::vector<TimedPosition> moments;
     std::vector<std::pair<std::size_t, std::size_t>> rows;  // snapshot, index in it
-    std::map<std::string, int> led;                         // scans by model
   };
 
   TrackerConfig config_;

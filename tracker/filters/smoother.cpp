@@ -1,6 +1,9 @@
 #include "tracker/filters/smoother.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "tracker/filters/carried.hpp"
 #include "tracker/filters/filter_design.hpp"
@@ -89,6 +92,26 @@ std::vector<Smoothed> smoothed(const SingleFilterConfig& config, double sigma, d
     write(i, after);
   }
   return result;
+}
+
+double log_likelihood(const SingleFilterConfig& config, double sigma, double dt,
+                      std::span<const TimedPosition> track) {
+  MotionFilter filter = equivalent_motion(config, sigma, dt);
+  double sum = 0.0;
+  double time = 0.0;
+  for (const TimedPosition& moment : track) {
+    if (filter.is_started() && moment.time > time) filter.predict(moment.time - time);
+    time = moment.time;
+    if (!moment.position) continue;
+    if (filter.is_started()) {
+      const Eigen::Matrix2d s = filter.innovation_covariance(moment.covariance);
+      const Eigen::Vector2d r = *moment.position - filter.estimate().position;
+      sum -= 0.5 * (r.dot(s.inverse() * r) + std::log(s.determinant()) +
+                    2.0 * std::log(2.0 * std::numbers::pi));
+    }
+    filter.update(*moment.position, moment.covariance);
+  }
+  return sum;
 }
 
 }  // namespace ghtrack

@@ -36,4 +36,9 @@ std::vector<Smoothed> smoothed(const SingleFilterConfig& config, double sigma, d
                                std::span<const TimedPosition> track,
                                std::optional<int> lag = std::nullopt);
 
+/// ln p of the positions given each one's forerunners, as the filter sees them: which of several
+/// filters explains a track best.
+double log_likelihood(const SingleFilterConfig& config, double sigma, double dt,
+                      std::span<const TimedPosition> track);
+
 }  // namespace ghtrack
