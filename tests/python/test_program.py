@@ -63,7 +63,7 @@ def test_a_run_here_is_the_programs(tmp_path, scene):
 
 # Property: a series reads its file as `ghtrack filter` does, from wherever the scene is.
 def test_a_series_names_a_file(tmp_path):
-    rows = "\n".join(f"{0.5 * k};{3 + k},25" for k in range(20))
+    rows = "\n".join(f"{k // 2},{5 * (k % 2)};{3 + k},25" for k in range(20))
     (tmp_path / "height.txt").write_text("Time (s);Height (m)\n" + rows + "\n")
     scene = {
         "kind": "series",
