@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -24,7 +26,7 @@ double clutter_density(const SensorTraits& sensor) {
 
 }  // namespace
 
-double survival(double elapsed, double lifetime) { return std::exp(-elapsed / lifetime); }
+double survival(double elapsed, double lifetime) { return portable::exp(-elapsed / lifetime); }
 
 Evidence::Evidence(const ExistenceConfig& config, const SensorTraits& sensor)
     : detection_probability(
@@ -37,7 +39,7 @@ Evidence::Evidence(const ExistenceConfig& config, const SensorTraits& sensor)
 
 double Evidence::log_nobodys(double density, std::size_t detections) const {
   const double expected = std::isfinite(area) ? density * area : 0.0;
-  return static_cast<double>(detections) * std::log(density) - expected;
+  return static_cast<double>(detections) * portable::log(density) - expected;
 }
 
 double Undetected::before_look(const Evidence& evidence, int sensor, double time) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tracker/association.hpp"
+#include "sim/portable_math.hpp"
 #include "tracker/association/belief_propagation.hpp"
 #include "tracker/life_cycle.hpp"
 #include "tracker/merging.hpp"
@@ -32,7 +33,7 @@ constexpr double kLeastClaim = 0.5;
 Competition compete(Look& look, double nobodys, const std::vector<Track>& tracks, bool decides) {
   const Evidence& evidence = look.design.evidence(look.scan.sensor);
   const double least = decides ? kLeastClaim : 0.0;
-  const double dearest = decides ? 0.0 : -std::log(kLeastOdds);
+  const double dearest = decides ? 0.0 : -portable::log(kLeastOdds);
   Competition result;
   result.detection.reserve(tracks.size());
   result.table.row_start.reserve(tracks.size() + 1);
@@ -44,7 +45,7 @@ Competition compete(Look& look, double nobodys, const std::vector<Track>& tracks
     const double due = is_due(track, look.sensor, look.scan.time) ? p : 0.0;
     const double missed = 1.0 - r * due;
     // odds: r p N(ν; 0, S) / (nobody's · (1 − r p))
-    const double base = std::log(2.0 * std::numbers::pi * nobodys * missed / (r * p));
+    const double base = portable::log(2.0 * std::numbers::pi * nobodys * missed / (r * p));
     look.grid.find_in_gate(track.reach, look.config().gate, gated);
     for (const Gated& near : gated) {
       const double cost = base + surprise(track, near, look.grid.members()[near.member]);
@@ -52,7 +53,7 @@ Competition compete(Look& look, double nobodys, const std::vector<Track>& tracks
     }
     result.table.close_row();
     result.detection.push_back(due);
-    result.log_missed += std::log(1.0 - *track.existence * due);
+    result.log_missed += portable::log(1.0 - *track.existence * due);
   }
   return result;
 }
@@ -96,10 +97,10 @@ Unused update_with_nearest(const Look& look, const Competition& competition, Tra
       continue;
     }
     const double claimed = std::max(kLeastClaim, r);
-    const double log_odds = std::log(r * (1.0 - claimed * p) / (claimed * (1.0 - r * p))) -
+    const double log_odds = portable::log(r * (1.0 - claimed * p) / (claimed * (1.0 - r * p))) -
                             candidate_of(table, i, assignment[i]).cost;
-    const double odds = std::min(kGreatestOdds, std::exp(log_odds));
-    state.log_likelihood += std::log1p(odds);
+    const double odds = std::min(kGreatestOdds, portable::exp(log_odds));
+    state.log_likelihood += portable::log1p(odds);
     // It may still be nobody's, and the target missed.
     const double real = r * (1.0 - p) + (1.0 - r * p) * odds;
     r = real / (1.0 - r + real);
@@ -144,7 +145,7 @@ Unused update_with_all(const Look& look, const Competition& competition,
   std::vector<double> odds;
   odds.reserve(table.candidates.size());
   for (const Candidate& candidate : table.candidates) {
-    odds.push_back(std::min(kGreatestOdds, std::exp(-candidate.cost)));
+    odds.push_back(std::min(kGreatestOdds, portable::exp(-candidate.cost)));
   }
   Marginals marginals = marginals_by_belief_propagation(table, odds, count);
   log_likelihood += marginals.log_sum;

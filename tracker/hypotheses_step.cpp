@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tracker/association/k_best.hpp"
+#include "sim/portable_math.hpp"
 #include "tracker/life_cycle.hpp"
 
 namespace ghtrack {
@@ -38,8 +39,8 @@ double log_sum(const std::vector<Hypothesis>& hypotheses) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Hypothesis& h : hypotheses) most = std::max(most, h.log_weight);
   double sum = 0.0;
-  for (const Hypothesis& h : hypotheses) sum += std::exp(h.log_weight - most);
-  return most + std::log(sum);
+  for (const Hypothesis& h : hypotheses) sum += portable::exp(h.log_weight - most);
+  return most + portable::log(sum);
 }
 
 /// Makes the weights sum up to 1. @returns the ln of what they did before
@@ -135,13 +136,13 @@ class MultiScan {
     Prospect result;
     result.detection = is_due(track, look_.sensor, look_.scan.time) ? p : 0.0;
     const double missed = 1.0 - r * result.detection;
-    result.log_missed = std::log(missed);
-    const double base = std::log(2.0 * std::numbers::pi * nobodys_ * missed / (r * p));
+    result.log_missed = portable::log(missed);
+    const double base = portable::log(2.0 * std::numbers::pi * nobodys_ * missed / (r * p));
     std::vector<Gated> gated;
     look_.grid.find_in_gate(track.reach, look_.config().gate, gated);
     for (const Gated& near : gated) {
       const double cost = base + surprise(track, near, members_[near.member]);
-      if (cost < -std::log(kLeastOdds)) result.candidates.push_back({near.member, cost});
+      if (cost < -portable::log(kLeastOdds)) result.candidates.push_back({near.member, cost});
     }
     return result;
   }
@@ -197,7 +198,7 @@ class MultiScan {
     std::vector<double> weights(cluster.targets[target].branches.size(), 0.0);
     for (const Hypothesis& h : cluster.hypotheses) {
       const int branch = h.branch_of[target];
-      if (branch != Hypothesis::kAbsent) weights[branch] += std::exp(h.log_weight);
+      if (branch != Hypothesis::kAbsent) weights[branch] += portable::exp(h.log_weight);
     }
     for (std::size_t b = 0; b < weights.size(); ++b) {
       weights[b] *= *cluster.targets[target].branches[b].track.existence;
@@ -353,7 +354,7 @@ class MultiScan {
     state_.log_likelihood += normalise(next.hypotheses);
     for (const Hypothesis& h : next.hypotheses) {
       for (std::size_t j = 0; j < detections.size(); ++j) {
-        if (h.branch_of[old + j] != Hypothesis::kAbsent) unused[j] += std::exp(h.log_weight);
+        if (h.branch_of[old + j] != Hypothesis::kAbsent) unused[j] += portable::exp(h.log_weight);
       }
     }
     for (std::size_t j = 0; j < detections.size(); ++j) {
@@ -385,7 +386,7 @@ class MultiScan {
         continue;
       }
       double& weight = kept[place->second].log_weight;
-      weight += std::log1p(std::exp(h.log_weight - weight));
+      weight += portable::log1p(portable::exp(h.log_weight - weight));
     }
     cut(kept, kMostHypotheses);
     normalise(kept);
@@ -504,7 +505,7 @@ class MultiScan {
       } else {
         double& weight = part.hypotheses[at->second].log_weight;
         const double more = std::max(weight, own.log_weight);
-        weight = more + std::log(std::exp(weight - more) + std::exp(own.log_weight - more));
+        weight = more + portable::log(portable::exp(weight - more) + portable::exp(own.log_weight - more));
       }
     }
     normalise(part.hypotheses);

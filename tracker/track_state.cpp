@@ -6,6 +6,8 @@
 #include <numbers>
 #include <variant>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -54,10 +56,10 @@ Track begin_track(const Filter& filter, const Scan& scan, std::size_t index) {
 }
 
 double surprise(const Track& track, const Gated& gated, const PlacedDetection& detection) {
-  if (!is_mixed(track)) return 0.5 * (gated.squared_distance + std::log(gated.determinant));
+  if (!is_mixed(track)) return 0.5 * (gated.squared_distance + portable::log(gated.determinant));
   const double log_density =
       log_likelihood(track.filter, detection.position, detection.covariance).value_or(-700.0);
-  return -log_density - std::log(2.0 * std::numbers::pi);
+  return -log_density - portable::log(2.0 * std::numbers::pi);
 }
 
 void hit(Track& track, const PlacedDetection& found, const Scan& scan) {

@@ -185,10 +185,10 @@ double ImmFilter::log_likelihood(const Vector& z, const Matrix& covariance) cons
   for (const Mode& mode : modes_) {
     const Matrix s = mode.filter.innovation_covariance(covariance);
     const Vector r = z - mode.filter.estimate().position;
-    density += mode.weight * std::exp(-0.5 * r.dot(s.inverse() * r)) /
+    density += mode.weight * portable::exp(-0.5 * r.dot(s.inverse() * r)) /
                (2.0 * std::numbers::pi * std::sqrt(s.determinant()));
   }
-  return std::log(std::max(density, std::numeric_limits<double>::min()));
+  return portable::log(std::max(density, std::numeric_limits<double>::min()));
 }
 
 ImmFilter::Matrix ImmFilter::widest_covariance() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/portable_math.hpp"
 #include "tracker/filters/carried.hpp"
 #include "tracker/filters/filter_design.hpp"
 #include "tracker/filters/small_matrices.hpp"
@@ -106,8 +107,8 @@ double log_likelihood(const SingleFilterConfig& config, double sigma, double dt,
     if (filter.is_started()) {
       const Eigen::Matrix2d s = filter.innovation_covariance(moment.covariance);
       const Eigen::Vector2d r = *moment.position - filter.estimate().position;
-      sum -= 0.5 * (r.dot(s.inverse() * r) + std::log(s.determinant()) +
-                    2.0 * std::log(2.0 * std::numbers::pi));
+      sum -= 0.5 * (r.dot(s.inverse() * r) + portable::log(s.determinant()) +
+                    2.0 * portable::log(2.0 * std::numbers::pi));
     }
     filter.update(*moment.position, moment.covariance);
   }
