@@ -9,7 +9,10 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kMostRounds = 1000;
+// In crowds that no sensor could resolve, messages settle slowly and their precision is worth little.
+constexpr double kMostRounds = 1000.0;
+constexpr double kFewestRounds = 10.0;
+constexpr double kMostWork = 1e7;  // rounds times pairs
 constexpr double kConverged = 1e-6;  // greatest relative change of a message in a round
 
 /// The messages along every pair, in the order of the table.
@@ -23,7 +26,9 @@ class Messages {
         heard_(static_cast<std::size_t>(detections), 0.0) {}
 
   void converge() {
-    for (int round = 0; round < kMostRounds; ++round) {
+    const double affordable = kMostWork / (1.0 + static_cast<double>(weights_.size()));
+    const int rounds = static_cast<int>(std::clamp(affordable, kFewestRounds, kMostRounds));
+    for (int round = 0; round < rounds; ++round) {
       if (exchange() < kConverged) break;
     }
   }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr double kSeldom = 0.01;  // probability of a change of motion, for what
 double typical_sigma(std::span<const Eigen::Vector2d> variance) {
   double least = variance.front().prod();
   for (const Eigen::Vector2d& v : variance) least = std::min(least, v.prod());
-  return std::pow(least, 0.25);
+  return portable::pow(least, 0.25);
 }
 
 KalmanCvConfig steady(double density, double initial_speed) {

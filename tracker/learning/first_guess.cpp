@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -124,7 +126,7 @@ std::vector<double> noises_of(const std::vector<Pair>& pairs, double rounding) {
   const double most = std::max(residuals[residuals.size() * 9 / 10], 2.0 * least);
   std::vector<double> noises;
   for (int i = 0; i < kNoises; ++i) {
-    noises.push_back(least * std::pow(most / least, i / (kNoises - 1.0)));
+    noises.push_back(least * portable::pow(most / least, i / (kNoises - 1.0)));
   }
   return noises;
 }
@@ -163,9 +165,9 @@ std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> senso
       double real = 0.0;
       for (const Pair& pair : pairs) {  // slowest first
         const double odds = share / (1.0 - share) *
-                            std::exp(-0.5 * pair.squared_residual / variance) /
+                            portable::exp(-0.5 * pair.squared_residual / variance) /
                             (2.0 * std::numbers::pi * variance * pair.density);
-        evidence += std::log((1.0 - share) * (1.0 + odds));
+        evidence += portable::log((1.0 - share) * (1.0 + odds));
         real += odds / (1.0 + odds);
         if (evidence <= best.evidence) continue;
         best = {.noise = noise, .speed = pair.speed, .share = real, .evidence = evidence};

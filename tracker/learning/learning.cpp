@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/portable_math.hpp"
 #include "tracker/learning/filter_choice.hpp"
 #include "tracker/learning/first_guess.hpp"
 #include "tracker/learning/path.hpp"
@@ -137,7 +138,7 @@ class Learner {
   /// minimum description length (Rissanen 1978). A target that is lost and found again is two.
   double merit(const Pass& pass) const {
     const auto scans = static_cast<double>(scans_.size());
-    return pass.log_likelihood - static_cast<double>(pass.paths.size()) * std::log(scans);
+    return pass.log_likelihood - static_cast<double>(pass.paths.size()) * portable::log(scans);
   }
 
   Candidate with_bank(const Parameters& usual) {
@@ -178,7 +179,7 @@ class Learner {
     Parameters p;
     p.motion.initial_speed =
         std::max(scales ? 0.5 * scales->speed : noise / interval_, noise / interval_);
-    const double density = kFirstIndex * noise * noise / std::pow(interval_, 3);
+    const double density = kFirstIndex * noise * noise / portable::pow(interval_, 3);
     p.motion.process_density[kAnyClass] = {density, 0.0, 0.0};
     const double real = scales ? std::min(scales->share / (kFirstDetection * kFirstDetection), 1.0)
                                : 0.5;
@@ -375,7 +376,7 @@ class Learner {
   static double change(const Parameters& a, const Parameters& b) {
     double greatest = 0.0;
     const auto note = [&](double from, double to, double weight) {
-      greatest = std::max(greatest, weight * std::abs(std::log(to / from)));
+      greatest = std::max(greatest, weight * std::abs(portable::log(to / from)));
     };
     for (std::size_t s = 0; s < a.motion.noise.size(); ++s) {
       note(a.motion.noise[s].x.value, b.motion.noise[s].x.value, 1.0);

@@ -7,6 +7,8 @@
 #include <functional>
 #include <utility>
 
+#include "sim/portable_math.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -49,7 +51,7 @@ void run(const Path& path, int axis, const std::vector<double>& variance, double
     vv += density * dt;
     const double s = xx + noise(fix);
     const double r = fix.position[axis] - x;
-    sum.log_likelihood -= 0.5 * (std::log(s) + r * r / s);
+    sum.log_likelihood -= 0.5 * (portable::log(s) + r * r / s);
     sum.squared += r * r / s;
     ++sum.count;
     const double to_x = xx / s, to_v = xv / s;
@@ -119,7 +121,7 @@ class Fit {
  private:
   /// @param power  2: a standard deviation, whose variance is meant
   static Parameter parameter(const Learned& learned, double power, double step) {
-    return {.value = power * std::log(learned.value), .step = step, .is_free = !learned.is_given};
+    return {.value = power * portable::log(learned.value), .step = step, .is_free = !learned.is_given};
   }
 
   std::size_t sensors() const { return model_.noise.size(); }
@@ -145,9 +147,9 @@ class Fit {
   Innovations sum(std::size_t c, int axis) const {
     std::vector<double> variance;
     for (std::size_t s = 0; s < sensors(); ++s) {
-      variance.push_back(std::exp(parameters_[2 * s + static_cast<std::size_t>(axis)].value));
+      variance.push_back(portable::exp(parameters_[2 * s + static_cast<std::size_t>(axis)].value));
     }
-    const double density = std::exp(parameters_[index_of_class(c)].value);
+    const double density = portable::exp(parameters_[index_of_class(c)].value);
     const double initial = model_.initial_speed * model_.initial_speed;
     Innovations total;
     for (const Path* path : paths_[c]) run(*path, axis, variance, density, initial, total);
@@ -164,14 +166,14 @@ class Fit {
   /// ln p of how usual the tracking index is; kOutOfBounds where nothing is told.
   double usual() const {
     double variance = 0.0;
-    for (std::size_t s = 0; s < 2 * sensors(); ++s) variance += std::exp(parameters_[s].value);
+    for (std::size_t s = 0; s < 2 * sensors(); ++s) variance += portable::exp(parameters_[s].value);
     variance /= 2.0 * static_cast<double>(sensors());
     double log_p = 0.0;
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      const double index = std::exp(parameters_[index_of_class(c)].value) * interval_ * interval_ *
+      const double index = portable::exp(parameters_[index_of_class(c)].value) * interval_ * interval_ *
                            interval_ / variance;
       if (!(index > kSteadiest && index < kNimblest)) return kOutOfBounds;
-      const double off = std::log(index / kUsual) / kSpreadOfUsual;
+      const double off = portable::log(index / kUsual) / kSpreadOfUsual;
       log_p -= 0.5 * off * off;
     }
     return log_p;
@@ -221,10 +223,10 @@ class Fit {
 
   static Learned learned(const Learned& before, const Parameter& p, double power) {
     if (!p.is_free) return before;
-    const double value = std::exp(p.value / power);
+    const double value = portable::exp(p.value / power);
     const double spread = p.curvature > 0.0 ? k95 / std::sqrt(p.curvature) / power : 5.0;
-    return {value, value * std::exp(-std::min(5.0, spread)),
-            value * std::exp(std::min(5.0, spread)), false};
+    return {value, value * portable::exp(-std::min(5.0, spread)),
+            value * portable::exp(std::min(5.0, spread)), false};
   }
 
   MotionFit result() const {
