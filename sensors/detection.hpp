@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -49,14 +47,7 @@ struct SensorTraits {
   FieldOfView field_of_view;           // world frame
   double detection_probability = 0.9;  // of a target in view, in one look
   double clutter = 0.0;                // expected false detections in one look at all of the view
-  double area = std::numeric_limits<double>::infinity();  // of the view if it has no shape [m²]
   Coverage coverage = Coverage::kWhole;
-
-  /// The area that false detections are spread over [m²]; infinite if it is not known.
-  double surveyed_area() const {
-    const double shape = ghtrack::area(field_of_view);
-    return std::isfinite(shape) ? shape : area;
-  }
 };
 
 }  // namespace ghtrack

@@ -19,23 +19,28 @@ constexpr double kTargetsAtFirst = 0.3;  // for each false detection in a scan
 /// detection's error.
 constexpr double kFewFalseDetections = 1e-5;
 
-double clutter_density(const SensorTraits& sensor) {
+double surveyed_area(const SensorTraits& sensor, double otherwise) {
+  const double shape = area(sensor.field_of_view);
+  return std::isfinite(shape) ? shape : otherwise;
+}
+
+double clutter_density(const SensorTraits& sensor, double area) {
   const double few = kFewFalseDetections / (2.0 * std::numbers::pi * sensor.sigma * sensor.sigma);
-  return std::max(few, sensor.clutter / sensor.surveyed_area());
+  return std::max(few, sensor.clutter / surveyed_area(sensor, area));
 }
 
 }  // namespace
 
 double survival(double elapsed, double lifetime) { return portable::exp(-elapsed / lifetime); }
 
-Evidence::Evidence(const ExistenceConfig& config, const SensorTraits& sensor)
+Evidence::Evidence(const ExistenceConfig& config, const SensorTraits& sensor, double otherwise)
     : detection_probability(
           std::clamp(sensor.detection_probability, kLeastDetection, kSurestDetection)),
-      clutter(clutter_density(sensor)),
+      clutter(clutter_density(sensor, otherwise)),
       births(config.births * clutter),
       at_first(std::max(config.births, kTargetsAtFirst) * clutter),
       lifetime(config.lifetime.value_or(kScansOfALife * sensor.period)),
-      area(sensor.surveyed_area()) {}
+      area(surveyed_area(sensor, otherwise)) {}
 
 double Evidence::log_nobodys(double density, std::size_t detections) const {
   const double expected = std::isfinite(area) ? density * area : 0.0;

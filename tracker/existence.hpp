@@ -34,7 +34,9 @@ struct Evidence {
   double lifetime = 100.0;  // mean time that a target stays [s]
   double area = std::numeric_limits<double>::infinity();  // of the view [m²]
 
-  Evidence(const ExistenceConfig& config, const SensorTraits& sensor);
+  /// @param area  that false detections are spread over if the sensor's view has no shape [m²]
+  Evidence(const ExistenceConfig& config, const SensorTraits& sensor,
+           double area = std::numeric_limits<double>::infinity());
 
   /// Density of detections that belong to no track yet: of false ones and of unknown targets.
   double nobodys(double undetected) const { return clutter + detection_probability * undetected; }

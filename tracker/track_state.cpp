@@ -20,6 +20,18 @@ bool is_look(const Track& track, const SensorTraits& sensor, double time) {
 /// Whether the prediction is a mixture, which no single covariance describes.
 bool is_mixed(const Track& track) { return std::holds_alternative<ImmFilter>(track.filter); }
 
+/// Of the position's error, about the estimate, if the mode that knows it least were the right one.
+Eigen::Matrix2d widest_covariance(const ImmFilter& mixed) {
+  Eigen::Matrix2d widest = mixed.innovation_covariance(Eigen::Matrix2d::Zero());
+  for (const ImmFilter::Mode& mode : mixed.modes()) {
+    const Eigen::Vector2d d = mode.filter.estimate().position - mixed.estimate().position;
+    const Eigen::Matrix2d own =
+        mode.filter.innovation_covariance(Eigen::Matrix2d::Zero()) + d * d.transpose();
+    if (own.trace() > widest.trace()) widest = own;
+  }
+  return widest;
+}
+
 }  // namespace
 
 void predict(Track& track, double dt) {
@@ -34,7 +46,9 @@ void predict(Track& track, double dt) {
       },
       track.filter);
   track.reach = track.prediction;
-  if (is_mixed(track)) track.reach.covariance = widest_covariance(track.filter);
+  if (const auto* mixed = std::get_if<ImmFilter>(&track.filter)) {
+    track.reach.covariance = widest_covariance(*mixed);
+  }
   track.residual.reset();
   track.detection.reset();
 }

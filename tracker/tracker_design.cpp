@@ -1,6 +1,7 @@
 #include "tracker/tracker_design.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -31,7 +32,8 @@ FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) 
 
 }  // namespace
 
-TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors)
+TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors,
+                             const std::vector<double>& areas)
     : config_(std::move(config)), sensors_(std::move(sensors)) {
   if (config_.association == Association::kKnown) {
     throw std::invalid_argument("a tracker cannot know which object a detection is of");
@@ -44,7 +46,10 @@ TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sen
       });
   best_ = static_cast<int>(best - sensors_.begin());
   for (const SensorTraits& sensor : sensors_) {
-    evidence_.emplace_back(config_.existence, sensor);
+    const std::size_t index = evidence_.size();
+    evidence_.emplace_back(config_.existence, sensor,
+                           index < areas.size() ? areas[index]
+                                                : std::numeric_limits<double>::infinity());
     FiltersByLabel& filters = filters_.emplace_back();
     for (const auto& [label, filter] : by_label) {
       filters.emplace(label, make_filter(filter, best->sigma, best->period));

@@ -20,7 +20,10 @@ class TrackerDesign {
   /// @param sensors  the data sheets, by Scan::sensor
   /// @throws std::invalid_argument if a filter cannot be designed, such as for unstable gains, or
   ///         the association is `known`: who knows it decorates a tracker that does not
-  TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors);
+  /// @param areas  of each sensor whose view has no shape: what false detections are spread over
+  ///               [m²]; none where it is not known
+  TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sensors,
+                const std::vector<double>& areas = {});
 
   // Out of line: to copy all filters is much code.
   TrackerDesign(const TrackerDesign&);

@@ -33,7 +33,7 @@ class LiveTracker {
   /// @param period  nominal time between scans [s], unless the configuration has it
   LiveTracker(const std::string& text, std::optional<double> period)
       : config_(schema::read_configuration_text<OfflineConfig>(text, "configuration")),
-        design_(config_.tracker, {traits(config_, period)}) {}
+        design_(config_.tracker, {traits(config_, period)}, {area_of(config_)}) {}
 
   /// @param positions    (n, 2) [m]
   /// @param covariances  (n, 2, 2) [m²], or empty: the configured noise

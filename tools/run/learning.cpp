@@ -146,7 +146,7 @@ LearnedConfig learn_offline(const OfflineConfig& config, const ScanSource& sourc
     sensor.noise_y = learned.noise.y.value;
     sensor.detection_probability = learned.detection_probability.value;
     sensor.clutter = learned.clutter.value;
-    if (sensor.field_of_view.empty()) sensor.area = learned.traits.area;
+    if (sensor.field_of_view.empty()) sensor.area = learned.area;
     if (sensors.size() > 1 || !source.sensors[s].empty()) {
       result.config.sensors[source.sensors[s]] = sensor;
     } else {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace ghtrack {
@@ -46,6 +47,10 @@ Eigen::Vector2d noise_of(const OfflineSensor& sensor) {
   return {x, sensor.noise_y.value_or(x)};
 }
 
+double area_of(const OfflineSensor& sensor) {
+  return sensor.area.value_or(std::numeric_limits<double>::infinity());
+}
+
 SensorTraits traits_of(const OfflineSensor& sensor, double period) {
   SensorTraits traits{.period = sensor.period > 0.0 ? sensor.period : period,
                       .sigma = std::sqrt(noise_of(sensor).prod()),
@@ -54,7 +59,6 @@ SensorTraits traits_of(const OfflineSensor& sensor, double period) {
   traits.detection_probability =
       sensor.detection_probability.value_or(traits.detection_probability);
   traits.clutter = sensor.clutter.value_or(traits.clutter);
-  traits.area = sensor.area.value_or(traits.area);
   return traits;
 }
 
@@ -88,13 +92,15 @@ TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
                            const std::function<void(const TrackSnapshot&)>& on_scan,
                            StepTimes* times) {
   std::vector<SensorTraits> traits;
+  std::vector<double> areas;
   std::vector<Eigen::Matrix2d> covariance;
   for (const std::string& name : scans.sensors) {
     const OfflineSensor sensor = config.sensor(name);
     traits.push_back(traits_of(sensor, scans.period > 0.0 ? scans.period : 1.0));
+    areas.push_back(area_of(sensor));
     covariance.emplace_back(noise_of(sensor).cwiseAbs2().asDiagonal());
   }
-  const TrackerDesign design(config.tracker, traits);
+  const TrackerDesign design(config.tracker, traits, areas);
   MissingScans missing(traits);
   TrackerState state;
   const auto process = [&](const Scan& scan) {

@@ -124,6 +124,10 @@ struct ScanSource {
 /// The noise that a sensor's detections are taken to have on each axis [m]; 1 if nothing is said.
 Eigen::Vector2d noise_of(const OfflineSensor& sensor);
 
+/// That false detections are spread over where the view has no shape [m²]; infinite if nothing is
+/// said.
+double area_of(const OfflineSensor& sensor);
+
 /// What is said of the sensor, or usual.
 /// @param period  time between scans [s], unless it is said
 SensorTraits traits_of(const OfflineSensor& sensor, double period);

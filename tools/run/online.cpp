@@ -58,7 +58,9 @@ class Tracking {
     return traits;
   }
   static TrackerDesign design_of(const OfflineConfig& config, const ScanSource& source) {
-    return {config.tracker, traits_of(config, source)};
+    std::vector<double> areas;
+    for (const std::string& name : source.sensors) areas.push_back(area_of(config.sensor(name)));
+    return {config.tracker, traits_of(config, source), areas};
   }
 
   TrackerDesign design_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <type_traits>
@@ -73,6 +74,19 @@ MultipleModelFilter make(const MultipleModelConfig& config, double sigma, double
   return MultipleModelFilter(std::move(models), config.switching);
 }
 
+/// ln Σ c_j N(r_j; 0, S_j).
+double log_likelihood_of_mixture(const ImmFilter& mixed, const Eigen::Vector2d& z,
+                                 const Eigen::Matrix2d& covariance) {
+  double density = 0.0;
+  for (const ImmFilter::Mode& mode : mixed.modes()) {
+    const Eigen::Matrix2d s = mode.filter.innovation_covariance(covariance);
+    const Eigen::Vector2d r = z - mode.filter.estimate().position;
+    density += mode.weight * portable::exp(-0.5 * r.dot(s.inverse() * r)) /
+               (2.0 * std::numbers::pi * std::sqrt(s.determinant()));
+  }
+  return portable::log(std::max(density, std::numeric_limits<double>::min()));
+}
+
 }  // namespace
 
 Filter make_filter(const FilterConfig& config, double sigma, double dt) {
@@ -120,7 +134,7 @@ bool update(Filter& filter, const Detection& detection) {
 std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d& z,
                                      const Eigen::Matrix2d& covariance) {
   if (const auto* mixed = std::get_if<ImmFilter>(&filter)) {
-    return mixed->log_likelihood(z, covariance);
+    return log_likelihood_of_mixture(*mixed, z, covariance);
   }
   const Eigen::Matrix2d s = innovation_covariance(filter, covariance);
   const double determinant = s.determinant();
@@ -177,11 +191,6 @@ Eigen::Vector2d noise_sigma(const Filter& filter) {
 
 Eigen::Matrix2d position_covariance(const Filter& filter) {
   return innovation_covariance(filter, Eigen::Matrix2d::Zero());
-}
-
-Eigen::Matrix2d widest_covariance(const Filter& filter) {
-  if (const auto* mixed = std::get_if<ImmFilter>(&filter)) return mixed->widest_covariance();
-  return position_covariance(filter);
 }
 
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement) {

@@ -81,8 +81,7 @@ bool update(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& cov
 /// With what the sensor measured, by filters that can make use of it; the others take the position.
 bool update(Filter& filter, const Detection& detection);
 /// ln N(r; 0, S) of the residual that this measurement has at estimate(), S as in
-/// innovation_covariance(), and of interacting models that of their mixture; nothing if S is
-/// singular.
+/// innovation_covariance(); nothing if S is singular.
 std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d& z,
                                      const Eigen::Matrix2d& covariance);
 void coast(Filter& filter);
@@ -106,8 +105,6 @@ Eigen::Vector2d position_sigma(const Filter& filter);
 Eigen::Vector2d noise_sigma(const Filter& filter);
 /// Covariance of the position's error: before update() of the predicted one [m²].
 Eigen::Matrix2d position_covariance(const Filter& filter);
-/// The same as far as it may reach: of interacting models that of the least certain one [m²].
-Eigen::Matrix2d widest_covariance(const Filter& filter);
 /// Covariance of the residual that a measurement would have after predict() [m²].
 Eigen::Matrix2d innovation_covariance(const Filter& filter, const Eigen::Matrix2d& measurement);
 Eigen::Matrix2d innovation_covariance(const Filter& filter);

@@ -1,10 +1,7 @@
 #include "tracker/filters/imm_filter.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -178,27 +175,6 @@ bool ImmFilter::update(const Measurement& measured) {
   misses_ = 0;
   ++updates_;
   return true;
-}
-
-double ImmFilter::log_likelihood(const Vector& z, const Matrix& covariance) const {
-  double density = 0.0;
-  for (const Mode& mode : modes_) {
-    const Matrix s = mode.filter.innovation_covariance(covariance);
-    const Vector r = z - mode.filter.estimate().position;
-    density += mode.weight * portable::exp(-0.5 * r.dot(s.inverse() * r)) /
-               (2.0 * std::numbers::pi * std::sqrt(s.determinant()));
-  }
-  return portable::log(std::max(density, std::numeric_limits<double>::min()));
-}
-
-ImmFilter::Matrix ImmFilter::widest_covariance() const {
-  Matrix widest = covariance_;
-  for (const Mode& mode : modes_) {
-    const Vector d = mode.filter.estimate().position - estimate_.position;
-    const Matrix own = mode.filter.innovation_covariance(Matrix::Zero()) + d * d.transpose();
-    if (own.trace() > widest.trace()) widest = own;
-  }
-  return widest;
 }
 
 void ImmFilter::coast() {

@@ -74,10 +74,6 @@ class ImmFilter {
   }
   /// ln Σ c_j Λ_j of the last update.
   double log_likelihood() const { return log_likelihood_; }
-  /// The same of a measurement that there may be.
-  double log_likelihood(const Vector& z, const Matrix& covariance) const;
-  /// Of the position's error, about the estimate, if the mode that knows it least were the right one.
-  Matrix widest_covariance() const;
 
  private:
   void mix(double dt);

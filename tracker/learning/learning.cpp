@@ -219,18 +219,21 @@ class Learner {
     const SensorSaid& said = said_[s];
     const LearnedMotion::Noise& noise = p.motion.noise[s];
     const double sigma = std::sqrt(noise.x.value * noise.y.value);
-    double area = said.area;
-    if (!std::isfinite(area)) {
-      const Eigen::Vector2d sides = seen_[s] + Eigen::Vector2d::Constant(6.0 * sigma);
-      area = sides.prod();
-    }
     return {.period = said.period,
             .sigma = sigma,
             .field_of_view = said.field_of_view,
             .detection_probability = p.detection_probability[s].value,
             .clutter = p.clutter[s].value,
-            .area = area,
             .coverage = said.coverage};
+  }
+
+  /// What is said, or that of all detections with their errors.
+  double area(const Parameters& p, std::size_t s) const {
+    if (std::isfinite(said_[s].area)) return said_[s].area;
+    const LearnedMotion::Noise& noise = p.motion.noise[s];
+    const double sigma = std::sqrt(noise.x.value * noise.y.value);
+    const Eigen::Vector2d sides = seen_[s] + Eigen::Vector2d::Constant(6.0 * sigma);
+    return sides.prod();
   }
 
   std::vector<SensorTraits> all_traits(const Parameters& p) const {
@@ -249,7 +252,9 @@ class Learner {
 
   /// The tracker's own pass over all scans.
   Pass track(const Parameters& p) {
-    const TrackerDesign design(tracking(p), all_traits(p));
+    std::vector<double> areas;
+    for (std::size_t s = 0; s < said_.size(); ++s) areas.push_back(area(p, s));
+    const TrackerDesign design(tracking(p), all_traits(p), areas);
     std::vector<Eigen::Matrix2d> covariance;
     for (const LearnedMotion::Noise& noise : p.motion.noise) {
       covariance.emplace_back(
@@ -401,7 +406,8 @@ class Learner {
       learned.sensors.push_back({.noise = p.motion.noise[s],
                                  .detection_probability = p.detection_probability[s],
                                  .clutter = p.clutter[s],
-                                 .traits = traits(p, s)});
+                                 .traits = traits(p, s),
+                                 .area = area(p, s)});
     }
     learned.tracks = static_cast<int>(pass.paths.size());
     learned.scans = static_cast<int>(scans_.size());

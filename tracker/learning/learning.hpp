@@ -21,7 +21,7 @@ struct SensorSaid {
   FieldOfView field_of_view;
   std::optional<double> detection_probability;
   std::optional<double> clutter;  // expected false detections in one look at all of the view
-  double area = std::numeric_limits<double>::infinity();  // see SensorTraits [m²]
+  double area = std::numeric_limits<double>::infinity();  // of the view if it has no shape [m²]
   Coverage coverage = Coverage::kWhole;
 };
 
@@ -30,6 +30,7 @@ struct LearnedSensor {
   Learned detection_probability;
   Learned clutter;
   SensorTraits traits;  // with all of that
+  double area = 0.0;    // that false detections are spread over if the view has no shape [m²]
 };
 
 struct LearnedClass {
