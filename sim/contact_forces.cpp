@@ -6,8 +6,9 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kMostSweeps = 100;
-constexpr double kExact = 1e-12;  // of the largest rate
+constexpr std::size_t kSweepsPerTouch = 30;  // at most; a column of n needs about n²
+constexpr std::size_t kMostSweeps = 1000;
+constexpr double kExact = 1e-11;  // of the largest rate
 
 /// One touch at work on its bodies.
 class Row {
@@ -15,7 +16,7 @@ class Row {
   Row(std::vector<Pushed>& bodies, Touch& touch)
       : touch_(touch),
         one_(bodies[static_cast<std::size_t>(touch.one)]),
-        other_(touch.other >= 0 ? bodies[static_cast<std::size_t>(touch.other)] : rigid_),
+        other_(touch.other >= 0 ? bodies[static_cast<std::size_t>(touch.other)] : rigid()),
         tangent_(tangent_to(touch.normal)),
         inverse_mass_(one_.inverse_mass + other_.inverse_mass),
         inverse_slip_(inverse_mass_ + one_.radius * one_.radius * one_.inverse_inertia +
@@ -60,7 +61,12 @@ class Row {
   }
 
  private:
-  Pushed rigid_;
+  /// What does not give way: nothing changes it.
+  static Pushed& rigid() {
+    thread_local Pushed body;
+    return body;
+  }
+
   Touch& touch_;
   Pushed& one_;
   Pushed& other_;
@@ -76,10 +82,18 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
   for (const Pushed& body : bodies) {
     largest = std::max({largest, body.rate.norm(), std::abs(body.spin_rate) * body.radius});
   }
-  for (Touch& touch : touches) Row(bodies, touch).apply(touch.push, touch.grip, touch.couple);
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+  std::vector<Row> rows;
+  rows.reserve(touches.size());
+  for (Touch& touch : touches) {
+    rows.emplace_back(bodies, touch).apply(touch.push, touch.grip, touch.couple);
+  }
+  // Up and down in turn: what leans on what is not known.
+  const std::size_t most = std::min(kSweepsPerTouch * (touches.size() + 1), kMostSweeps);
+  for (std::size_t sweep = 0; sweep < most; ++sweep) {
     double change = 0.0;
-    for (Touch& touch : touches) change = std::max(change, Row(bodies, touch).improve());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      change = std::max(change, rows[sweep % 2 == 0 ? i : rows.size() - 1 - i].improve());
+    }
     if (change <= kExact * largest) break;
   }
 }

@@ -32,6 +32,21 @@ constexpr std::array<double, N> inverse_factorials(int first) {
   return terms;
 }
 
+/// 1/n for the odd numbers 1, 3, 5, …
+template <std::size_t N>
+constexpr std::array<double, N> inverse_odd_numbers() {
+  std::array<double, N> terms{};
+  for (std::size_t i = 0; i < N; ++i) terms[i] = 1.0 / (2.0 * static_cast<double>(i) + 1.0);
+  return terms;
+}
+
+/// std::floor for |x| < 2^52, without a call.
+double floor_of(double x) {
+  const auto towards_zero = static_cast<double>(static_cast<std::int64_t>(x));
+  return towards_zero > x ? towards_zero - 1.0 : towards_zero;
+}
+
+constexpr auto kInverseOdd = inverse_odd_numbers<12>();
 constexpr auto kSine = inverse_factorials<9>(1);
 constexpr auto kCosine = inverse_factorials<9>(0);
 
@@ -39,7 +54,7 @@ constexpr auto kCosine = inverse_factorials<9>(0);
 double small_atan(double x) {
   const double z = x * x;
   double sum = 0.0;
-  for (int n = 23; n >= 1; n -= 2) sum = 1.0 / n - z * sum;
+  for (std::size_t i = 12; i-- > 0;) sum = kInverseOdd[i] - z * sum;
   return x * sum;
 }
 
@@ -73,7 +88,7 @@ double log(double x) {
   const double s = (mantissa - 1.0) / (mantissa + 1.0);
   const double z = s * s;
   double sum = 0.0;
-  for (int n = 21; n >= 3; n -= 2) sum = z * (1.0 / n + sum);
+  for (std::size_t i = 11; i-- > 1;) sum = z * (kInverseOdd[i] + sum);
   const double k = exponent;
   return k * kLn2High + (2.0 * s + (2.0 * s * sum + k * kLn2Low));
 }
@@ -97,12 +112,12 @@ double exp(double x) {
 double pow(double x, double y) { return exp(y * log(x)); }
 
 SinCos sin_cos_of_turns(double turns) {
-  const double whole = std::floor(turns * 4.0 + 0.5);
+  const double whole = floor_of(turns * 4.0 + 0.5);
   const double angle = (turns - whole * 0.25) * kTwoPi;  // within ±π/4 of a quarter turn
   const double z = angle * angle;
   const double s = angle * alternating_series(kSine, z);
   const double c = alternating_series(kCosine, z);
-  const double quarter = whole - 4.0 * std::floor(whole * 0.25);
+  const double quarter = whole - 4.0 * floor_of(whole * 0.25);
   if (quarter == 1.0) return {c, -s};
   if (quarter == 2.0) return {-s, -c};
   if (quarter == 3.0) return {-c, s};
