@@ -832,7 +832,7 @@ class Encounter {
     }
     // They touch already, and part or stay so for a while.
     double clear = before.time;
-    for (int i = 0; i < 60 && touching - clear > 1e-10; ++i) {
+    for (int i = 0; i < 60 && touching - clear > 1e-13; ++i) {
       const double middle = 0.5 * (clear + touching);
       const Instant there = at(middle);
       const Gap then = gap(there, pair);
