@@ -182,7 +182,7 @@ TEST_F(Run, EstimatesOfTrainsAndBallsBeatTheRawMeasurements) {
     ASSERT_GE(metrics.at("objects").size(), 6U);
     for (const auto& object : metrics.at("objects")) {
       if (object.at("regime") == "balloon") continue;
-      EXPECT_LT(object.at("rmse_position"), object.at("measurement_rmse")) << name << object;
+      EXPECT_LT(object.at("rmse"), object.at("raw")) << name << object;
     }
   }
 }
@@ -208,10 +208,10 @@ tracker:
   const nlohmann::json metrics = metrics_of(folder() / "results" / "metrics.json");
   ASSERT_EQ(metrics.at("objects").size(), 2U);
   for (const auto& object : metrics.at("objects")) {
-    const double measured = object.at("rmse_position");
-    const double predicted = object.at("predicted_rmse");
-    const double low = object.at("rmse_position_ci95").at(0);
-    const double high = object.at("rmse_position_ci95").at(1);
+    const double measured = object.at("rmse");
+    const double predicted = object.at("predicted");
+    const double low = object.at("rmse_ci95").at(0);
+    const double high = object.at("rmse_ci95").at(1);
     EXPECT_LT(std::abs(measured - predicted), (high - low)) << object;
   }
 }
@@ -228,8 +228,8 @@ TEST_F(Run, ReplayedScansHelpLessThanPromptOnesAndMoreThanNone) {
   const nlohmann::json prompt = error_with("--set 'sensors[radar].latency=0'");
   const nlohmann::json replayed = error_with("");
   const nlohmann::json refused = error_with("--set tracker.late_scans=refuse");
-  EXPECT_LT(prompt["total"]["rmse_position"], replayed["total"]["rmse_position"]);
-  EXPECT_LT(replayed["total"]["rmse_position"], refused["total"]["rmse_position"]);
+  EXPECT_LT(prompt["total"]["rmse"], replayed["total"]["rmse"]);
+  EXPECT_LT(replayed["total"]["rmse"], refused["total"]["rmse"]);
   EXPECT_EQ(prompt["arrivals"]["scans"]["radar"]["in_order"], 45);
   EXPECT_EQ(replayed["arrivals"]["scans"]["radar"]["replayed"], 45);
   EXPECT_EQ(refused["arrivals"]["scans"]["radar"]["refused"], 45);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,13 +22,15 @@
 #include "tools/cli/smoothed_tracks.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/cli/video_look.hpp"
+#include "tools/experiment/engine.hpp"
+#include "tools/experiment/hindsight.hpp"
 #include "tools/film/film.hpp"
 #include "tools/film/scene_drawing.hpp"
 #include "tools/metrics/match_writer.hpp"
 #include "tools/metrics/run_metrics.hpp"
-#include "tools/record/atomic_file.hpp"
 #include "tools/plot/figure_file.hpp"
 #include "tools/plot/track_figure.hpp"
+#include "tools/record/atomic_file.hpp"
 #include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
 #include "tools/run/run.hpp"
@@ -36,6 +39,9 @@ namespace ghtrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Beyond, what is said in hindsight would take longer than the run, and is not said.
+constexpr std::size_t kMostHindsightScans = 20'000;
 
 std::vector<std::string> sensor_names(const WorldScene& scene) {
   std::vector<std::string> names;
@@ -68,10 +74,11 @@ void warn_of_missed_collisions(const TruthSource& truth, const WorldScene& scene
 
 void warn_of_displacements(const TruthSource& truth) {
   for (const Displacement& displaced : truth.displacements()) {
-    tell("ghtrack: warning: '{}' appeared inside something at {:.6g} s and was moved out of it by "
-         "{:.3g} m",
-         truth.objects().at(static_cast<std::size_t>(displaced.object)).name, displaced.time,
-         displaced.distance);
+    tell(
+        "ghtrack: warning: '{}' appeared inside something at {:.6g} s and was moved out of it by "
+        "{:.3g} m",
+        truth.objects().at(static_cast<std::size_t>(displaced.object)).name, displaced.time,
+        displaced.distance);
   }
 }
 
@@ -86,6 +93,18 @@ void write_plots(const fs::path& folder, const RunMetricsOptions& scoring,
                                                .title = title,
                                                .reading = {}});
   plot::write_figure(folder / "plots.svg", figure, {});
+}
+
+/// What each object's error may be held against.
+void add_hindsight(RunReport& report, const std::vector<LabelledObject>& objects,
+                   const WorldScene& scene) {
+  in_parallel(objects.size(), 2, [&](std::size_t i) {
+    const Hindsight found =
+        in_hindsight({&objects[i]}, scene.sensors, report.options, stop_if_interrupted);
+    ObjectReport& object = report.objects[static_cast<std::size_t>(objects[i].id)];
+    object.best_fixed_gains = found.best_fixed_gains;
+    object.smoother = found.smoother;
+  });
 }
 
 /// A scene on its way to files: its truth, its sensors, who follows, and who listens. All files
@@ -117,10 +136,14 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   const TrackColumns columns = options.plots ? innovation_columns() : TrackColumns();
   RunWriter files(folder, objects, sensor_names(scene), columns);
   const RunMetricsOptions scoring = scoring_for(traits_of(scene.sensors));
-  RunMetrics metrics(objects, scoring);
+  RunMetrics metrics(objects, scoring, 0,
+                     FilterTheory{contenders.front().tracker.design(), scene.sensors});
   std::optional<RunMatches> matches;
   if (options.matches) matches.emplace(folder / "matches.csv", scoring.gospa());
-  RunObservers observers = {&watch, &files, &metrics};
+  std::vector<ObjectId> everyone;
+  for (const ObjectInfo& object : objects) everyone.push_back(object.id);
+  LabelledObjectRecorder labelled(objects.size(), everyone, kMostHindsightScans);
+  RunObservers observers = {&watch, &files, &metrics, &labelled};
   if (matches) observers.push_back(&*matches);
   if (film) observers.push_back(&*film);
   std::optional<HistoryObserver> history;
@@ -144,6 +167,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunReport report = metrics.report();
   report.counts = counts.front();
+  if (labelled.is_complete()) add_hindsight(report, std::move(labelled).objects(), scene);
   if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   AtomicFile scores(folder / "metrics.json");

@@ -14,86 +14,42 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kIndices = 19;   // tracking indices 10^-3.5, … 10^2.5
+constexpr int kTheoryRuns = 200;
+constexpr int kRunsOfOneTruth = 8;
 constexpr std::size_t kGridSide = 20;  // of a gain surface
-constexpr std::size_t kTheoryScans = 100'000;  // of each run
+constexpr std::size_t kTheoryScans = 60'000;  // of all runs
 constexpr std::size_t kSurfaceScans = 4000;
 
 bool belongs_to(ObjectId id, const Subject& subject) {
   return std::binary_search(subject.objects.begin(), subject.objects.end(), id);
 }
 
-/// The filter with Kalata's gains in the steady state, and Kalman's on the way there, at uneven
-/// times and for detections of different quality.
-template <int Order>
-GainFilter<2> kalman_like(double index, const RunMetricsOptions& sensor) {
-  constexpr double kDiffuse = 100.0;  // the start's uncertainty, in sigmas per period
-  GainFilterConfig<Order> config;
-  config.design = gain_design::TrackingIndex<Order>{.index = index};
-  config.schedule = GainSource::kCovariance;
-  config.initial_speed = kDiffuse * sensor.sigma / sensor.period;
-  config.initial_acceleration = config.initial_speed / sensor.period;
-  return std::get<GainFilter<2>>(make_filter(config, sensor.sigma, sensor.period));
-}
-
-/// The filters of which the best one is the bound.
-std::vector<GainFilter<2>> candidates(const RunMetricsOptions& sensor) {
-  std::vector<GainFilter<2>> filters;
-  for (std::size_t i = 0; i < kIndices; ++i) {
-    const double index = std::pow(10.0, -3.5 + static_cast<double>(i) / 3.0);
-    filters.push_back(kalman_like<1>(index, sensor));
-    filters.push_back(kalman_like<2>(index, sensor));
-  }
-  return filters;
-}
-
 /// Sums over the truth of some objects.
-struct TheorySum {
-  std::vector<SquaredErrors> candidates;
-  double square_acceleration = 0.0;
-  double square_jerk = 0.0;
-  std::int64_t scans = 0;
-  std::int64_t steps = 0;
-
+class TruthSums {
+ public:
   void add(const LabelledObject& object) {
     const TruthState* before = nullptr;
     double before_time = 0.0;
     for (const ObjectScan& scan : object.scans) {
-      square_acceleration += scan.truth.acceleration.squaredNorm();
-      ++scans;
+      acceleration_.add(scan.truth.acceleration.squaredNorm());
       if (before != nullptr && scan.time > before_time) {
         const Vec2 change = scan.truth.acceleration - before->acceleration;
-        square_jerk += (change / (scan.time - before_time)).squaredNorm();
-        ++steps;
+        jerk_.add((change / (scan.time - before_time)).squaredNorm());
+        autocorrelation_.add(scan.truth.acceleration.dot(before->acceleration));
       }
       before = &scan.truth;
       before_time = scan.time;
     }
   }
 
-  TheorySum& operator+=(const TheorySum& other) {
-    candidates.resize(other.candidates.size());
-    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i] += other.candidates[i];
-    square_acceleration += other.square_acceleration;
-    square_jerk += other.square_jerk;
-    scans += other.scans;
-    steps += other.steps;
-    return *this;
+  void write(SubjectTheory& theory) const {
+    theory.square_acceleration = acceleration_.value().value_or(0.0);
+    theory.square_jerk = jerk_.value().value_or(0.0);
+    theory.square_autocorrelation = autocorrelation_.value().value_or(0.0);
   }
 
-  SubjectTheory theory() const {
-    SubjectTheory theory;
-    if (scans > 0) theory.square_acceleration = square_acceleration / static_cast<double>(scans);
-    if (steps > 0) theory.square_jerk = square_jerk / static_cast<double>(steps);
-    for (const SquaredErrors& candidate : candidates) {
-      if (!candidate.position.root()) continue;
-      const double position = *candidate.position.root();
-      const double velocity = *candidate.velocity.root();
-      theory.bound_position = std::min(position, theory.bound_position.value_or(position));
-      theory.bound_velocity = std::min(velocity, theory.bound_velocity.value_or(velocity));
-    }
-    return theory;
-  }
+ private:
+  Mean acceleration_, jerk_, autocorrelation_;
 };
 
 /// Every n-th element, so that at most `most` are left, and always the last one.
@@ -214,38 +170,34 @@ GainSurface surface_of(const Trial& trial, const std::string& regime,
 
 }  // namespace
 
-int theory_runs(const WorldScene& scene) {
-  return std::min(SharedTruth::kKeptRuns, scene.compare.runs);
- }
+int theory_runs(const WorldScene& scene, int runs) {
+  return std::min(runs, truth_is_fixed(scene) ? kRunsOfOneTruth : kTheoryRuns);
+}
 
-std::vector<SubjectTheory> theory_of(const Trial& trial, std::span<const RunTruth> truths,
-                                     int jobs) {
-  const std::vector<GainFilter<2>> filters = candidates(trial.scoring());
-  std::vector<TheorySum> of_objects(trial.objects().size());
-  for (TheorySum& sum : of_objects) sum.candidates.resize(filters.size());
-  const std::vector<ObjectId> wanted = some_objects(trial, kTheoryScans);
-  for (std::size_t run = 0; run < truths.size(); ++run) {
-    const std::vector<LabelledObject> objects =
-        labelled_objects(trial, static_cast<int>(run), truths[run], wanted);
-    in_parallel(objects.size() * filters.size(), jobs, [&](std::size_t i) {
-      const LabelledObject& object = objects[i / filters.size()];
-      const std::size_t filter = i % filters.size();
-      of_objects[static_cast<std::size_t>(object.id)].candidates[filter] +=
-          expected_errors(filters[filter], object);
-    });
-    for (const LabelledObject& object : objects) {
-      of_objects[static_cast<std::size_t>(object.id)].add(object);
+std::vector<SubjectTheory> theory_of(const Trial& trial, int first_run, int runs, int jobs) {
+  const int some = theory_runs(trial.scene(), runs);
+  const std::vector<ObjectId> wanted =
+      some_objects(trial, kTheoryScans / static_cast<std::size_t>(some));
+  std::vector<std::vector<LabelledObject>> of_runs(static_cast<std::size_t>(some));
+  in_parallel(of_runs.size(), jobs, [&](std::size_t i) {
+    const int run = first_run + static_cast<int>(i);
+    of_runs[i] = labelled_objects(trial, run, trial.truth_of(run), wanted);
+  });
+  std::vector<SubjectTheory> theory(trial.subjects().size());
+  in_parallel(theory.size(), jobs, [&](std::size_t i) {
+    ObjectsOfRuns objects;
+    TruthSums sums;
+    for (const std::vector<LabelledObject>& run : of_runs) {
+      for (const LabelledObject& object : run) {
+        if (!belongs_to(object.id, trial.subjects()[i])) continue;
+        objects.push_back(&object);
+        sums.add(object);
+      }
     }
-  }
-  std::vector<SubjectTheory> theory;
-  for (const Subject& subject : trial.subjects()) {
-    TheorySum sum;
-    for (const ObjectId id : subject.objects) {
-      const TheorySum& object = of_objects[static_cast<std::size_t>(id)];
-      if (object.scans > 0) sum += object;
-    }
-    theory.push_back(sum.theory());
-  }
+    sums.write(theory[i]);
+    theory[i].hindsight = in_hindsight(objects, trial.scene().sensors, trial.scoring(),
+                                       [&] { trial.step(); });
+  });
   return theory;
 }
 

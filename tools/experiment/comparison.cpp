@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "tools/experiment/analysis.hpp"
@@ -85,20 +84,20 @@ class CellReduction {
         row.has_heavy_tails = true;
       }
       row.runs = mean.values;
-      const SampleMean predicted = mean_of(
-          values_.at(layout_.predicted(contender, subject, metric)), info(metric).average);
-      if (predicted.values > 0) row.predicted = predicted.mean;
-      if (metric == Metric::kRmsePosition) row.bound = theory.bound_position;
-      if (metric == Metric::kRmseVelocity) row.bound = theory.bound_velocity;
+      const SampleMean predicted =
+          mean_of(values_.at(layout_.predicted(contender, subject, metric)), info(metric).average);
+      if (predicted.values == mean.values) row.predicted = predicted.mean;
+      if (metric == Metric::kRmsePosition) row.hindsight = theory.hindsight;
       values.push_back(std::move(of_runs));
     }
     if (info(metric).better != Better::kNeither && rows.size() > 1) judge(subject, values, rows);
     return rows;
   }
 
-  /// Errors of trackers that find out for themselves what is whose have tails that no number of runs
-  /// within reach shows whole: a track that is dragged along by clutter, once in hundreds of runs,
-  /// weighs as much as all others. A mean's interval from a sample without it would be too narrow.
+  /// Errors of trackers that find out for themselves what is whose have tails that no number of
+  /// runs within reach shows whole: a track that is dragged along by clutter, once in hundreds of
+  /// runs, weighs as much as all others. A mean's interval from a sample without it would be too
+  /// narrow.
   bool may_be_ruined(Metric metric) const {
     const bool is_error = metric == Metric::kRmsePosition || metric == Metric::kRmseVelocity ||
                           metric == Metric::kPeakError;
@@ -134,8 +133,7 @@ class CellReduction {
           paired_difference(values[i], values[*best], average, confidence);
       if (!std::isnan(difference.value)) row.difference = difference.value;
       row.difference_ci95 = difference.interval;
-      row.significance =
-          loses[i] ? Significance::kWorse : verdict_on(difference, sign, negligible);
+      row.significance = loses[i] ? Significance::kWorse : verdict_on(difference, sign, negligible);
       if (row.significance == Significance::kUndecided) {
         row.runs_to_decide = runs_to_decide(difference, negligible);
       }
@@ -153,8 +151,7 @@ class CellReduction {
       shares.push_back(mean_of(followed.back(), Average::kShare).mean);
     }
     const auto most = std::max_element(shares.begin(), shares.end());
-    const std::vector<double>& faithful =
-        followed[static_cast<std::size_t>(most - shares.begin())];
+    const std::vector<double>& faithful = followed[static_cast<std::size_t>(most - shares.begin())];
     std::vector<bool> loses;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const PairedDifference difference =
@@ -212,17 +209,16 @@ class CellReduction {
   ResultColumns values_;
 };
 
-/// @param truths  of the cell's first runs
 CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::size_t index,
-                       std::span<const RunTruth> truths, int jobs,
-                       const std::function<void()>& on_step) {
+                       int jobs, const std::function<void()>& on_step) {
   const Trial trial(cell.scene, on_step);
+  const RunTruth truth = trial.truth_of(0, true);
   const CellReduction reduction(trial, results.columns(index));
   CellOutcome outcome;
   for (const Contender& contender : trial.contenders()) {
     outcome.contenders.push_back(contender.name);
   }
-  outcome.rows = reduction.rows(theory_of(trial, truths, jobs), jobs);
+  outcome.rows = reduction.rows(theory_of(trial, 0, cell.runs(), jobs), jobs);
   outcome.cell = {.scene = cell.scene.name,
                   .file = cell.file,
                   .sweep = cell.sweep,
@@ -233,8 +229,8 @@ CellOutcome outcome_of(const CampaignCell& cell, const Results& results, std::si
                   .period = trial.scoring().period,
                   .regimes = trial.regimes(),
                   .curves = reduction.curves(),
-                  .example = example_of(trial, truths.front()),
-                  .surfaces = gain_surfaces(trial, truths.front(), jobs)};
+                  .example = example_of(trial, truth),
+                  .surfaces = gain_surfaces(trial, truth, jobs)};
   return outcome;
 }
 
@@ -258,27 +254,12 @@ void renumber(CellOutcome& outcome, std::vector<std::string>& filters) {
 
 }  // namespace
 
-Comparison compare(const Campaign& campaign, std::span<const CellGroup> groups,
-                   const Results& results, int jobs, const std::function<void()>& on_step) {
+Comparison compare(const Campaign& campaign, const Results& results, int jobs,
+                   const std::function<void()>& on_step) {
   std::vector<CellOutcome> outcomes(campaign.cells.size());
-  for (const CellGroup& group : groups) {
-    int runs = 0;
-    for (const std::size_t i : group.cells) {
-      runs = std::max(runs, theory_runs(campaign.cells[i].scene));
-    }
-    std::vector<std::optional<RunTruth>> recorded(static_cast<std::size_t>(runs));
-    in_parallel(recorded.size(), jobs, [&](std::size_t run) {
-      recorded[run] = group.truth->of_run(static_cast<int>(run), true);
-    });
-    std::vector<RunTruth> truths;
-    for (const std::optional<RunTruth>& truth : recorded) truths.push_back(*truth);
-    in_parallel(group.cells.size(), jobs, [&](std::size_t i) {
-      const CampaignCell& cell = campaign.cells[group.cells[i]];
-      const auto own = std::span<const RunTruth>(truths).first(
-          static_cast<std::size_t>(theory_runs(cell.scene)));
-      outcomes[group.cells[i]] = outcome_of(cell, results, group.cells[i], own, jobs, on_step);
-    });
-  }
+  in_parallel(outcomes.size(), jobs, [&](std::size_t i) {
+    outcomes[i] = outcome_of(campaign.cells[i], results, i, jobs, on_step);
+  });
   Comparison comparison;
   for (CellOutcome& outcome : outcomes) {
     renumber(outcome, comparison.filters);

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "tools/experiment/campaign.hpp"
+#include "tools/experiment/hindsight.hpp"
+#include "tools/experiment/journal.hpp"
 #include "tools/experiment/metric.hpp"
 #include "tools/experiment/results.hpp"
 #include "tools/experiment/shared_truth.hpp"
@@ -40,19 +42,19 @@ struct ComparisonRow {
   std::string regime;      // empty: the scene as a whole
   std::string object;      // empty: all objects of the regime
   Metric metric = Metric::kRmsePosition;
-  std::string gains;                 // "g=0.5 h=0.2"
-  double mean = 0.0;                 // over the runs, as its metric is averaged
-  std::optional<Interval> ci95;      // of the mean; absent with too few runs to tell
-  double median = 0.0;               // of the runs
+  std::string gains;                    // "g=0.5 h=0.2"
+  double mean = 0.0;                    // over the runs, as its metric is averaged
+  std::optional<Interval> ci95;         // of the mean; absent with too few runs to tell
+  double median = 0.0;                  // of the runs
   std::optional<Interval> median_ci95;  // absent with too few runs to tell
-  bool has_heavy_tails = false;      // few runs make most of the mean: the median is what counts
-  std::optional<double> predicted;   // by the filter's closed forms
-  std::optional<double> bound;       // about the least that a filter of fixed design can have
-  std::int64_t runs = 0;             // in which the metric has a value
-  std::optional<double> difference;  // to the best filter's mean; 0 for itself
+  bool has_heavy_tails = false;         // few runs make most of the mean: the median is what counts
+  std::optional<double> predicted;      // by the filter's closed forms
+  Hindsight hindsight;                  // of its subject; empty but for the RMSE of position
+  std::int64_t runs = 0;                // in which the metric has a value
+  std::optional<double> difference;     // to the best filter's mean; 0 for itself
   std::optional<Interval> difference_ci95;  // paired by runs; absent for the best itself
   Significance significance = Significance::kNone;
-  std::optional<double> runs_to_decide;       // where it is undecided: about so many would
+  std::optional<double> runs_to_decide;  // where it is undecided: about so many would
 };
 
 /// RMSE of position over all objects of a regime, as it develops over the scene's time.
@@ -125,12 +127,11 @@ struct Comparison {
 };
 
 /// Averages the results of a campaign and sets theory beside them.
-/// @param groups   the campaign's cells by their truth
 /// @param results  of all runs
 /// @param jobs     threads; the outcome does not depend on them
 /// @param on_step  called again and again by all threads; may throw to give up
 Comparison compare(
-    const Campaign& campaign, std::span<const CellGroup> groups, const Results& results, int jobs,
+    const Campaign& campaign, const Results& results, int jobs,
     const std::function<void()>& on_step = [] {});
 
 /// `comparison.csv`: one line per row.

@@ -48,7 +48,10 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
           {"ci95", range(row.ci95)},
           {"interval", interval_kind(info(row.metric).average)},
           {"predicted", number(row.predicted)},
-          {"bound", number(row.bound)},
+          {"raw", number(row.hindsight.raw)},
+          {"best_fixed_gains", number(row.hindsight.best_fixed_gains)},
+          {"crlb", nullptr},
+          {"smoother", number(row.hindsight.smoother)},
           {"runs", row.runs},
           {"difference", number(row.difference)},
           {"difference_ci95", range(row.difference_ci95)},
@@ -107,10 +110,10 @@ std::string cell_text(const ComparisonRow& row) {
   return text;
 }
 
-/// "12": the percentage of its scans in which an object was not followed, if there are any.
+/// "12": the percentage of its scans in which an object was not followed, from 1 on.
 std::string lost_text(const ComparisonRow& tracked) {
   const double lost = 100.0 * (1.0 - tracked.mean);
-  return lost < 0.05 ? "" : fmt::format("{:.2g}", lost);
+  return lost < 1.0 ? "" : fmt::format("{:.2g}", lost);
 }
 
 /// How many runs would decide all that is undecided; nothing if all is decided.
@@ -138,7 +141,7 @@ std::string lost_text_of(const TableRows& tracked, const TableKey& key, std::siz
 std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "scene,regime,object,filter,gains,metric,mean,ci95_low,ci95_high,predicted,runs,sweep,unit,"
-      "interval,bound,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails\n";
+      "interval,raw,best_fixed_gains,crlb,smoother,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails\n";
   CsvRow line;
   for (const ComparisonRow& row : comparison.rows) {
     const ComparedCell& cell = comparison.cells[row.cell];
@@ -146,7 +149,8 @@ std::string comparison_csv(const Comparison& comparison) {
     line << cell.scene << row.regime << row.object << comparison.filters[row.filter] << row.gains
          << info(row.metric).name << row.mean << low(row.ci95) << high(row.ci95) << row.predicted
          << row.runs << cell.sweep << info(row.metric).unit << interval_kind(info(row.metric).average)
-         << row.bound << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
+         << row.hindsight.raw << row.hindsight.best_fixed_gains << std::string_view()
+         << row.hindsight.smoother << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
          << to_string(row.significance) << row.runs_to_decide << row.median
          << low(row.median_ci95) << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "");
     line.end();
@@ -181,7 +185,9 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
     columns.push_back({printable(comparison.filters[i], 20), 20, true});
     if (loses(i)) columns.push_back({"lost %", 6, true});
   }
-  columns.push_back({"bound", 12, true});
+  for (const char* reference : {"raw", "best fixed", "smoother"}) {
+    columns.push_back({reference, 10, true});
+  }
   std::vector<std::vector<std::string>> table;
   for (const auto& [key, filters] : lines) {
     std::vector<std::string>& line = table.emplace_back();
@@ -190,14 +196,18 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
       line.push_back(filters.contains(i) ? cell_text(*filters.at(i)) : "");
       if (loses(i)) line.push_back(lost_text_of(tracked, key, i));
     }
-    const std::optional<double>& bound = filters.begin()->second->bound;
-    line.push_back(bound ? fmt::format("{:.3g}", *bound) : "");
+    const Hindsight& hindsight = filters.begin()->second->hindsight;
+    for (const auto& reference :
+         {hindsight.raw, hindsight.best_fixed_gains, hindsight.smoother}) {
+      line.push_back(reference ? fmt::format("{:.3g}", *reference) : "");
+    }
   }
   std::string text =
       "RMSE of position [m] ± half of its 95 % interval. * better than all others, = within 1 % of\n"
       "the best, ? undecided, few: too few runs to tell; ~ the median of the runs, where few may make\n"
       "most of the mean. lost %: scans in which an object was not followed, which no RMSE counts.\n"
-      "bound: least error of a filter that knows which detection is whose\n\n" +
+      "raw: the detections; best fixed: expected of the best fixed gains, chosen afterwards, knowing\n"
+      "which detection is whose; smoother: of one that also knows all later detections\n\n" +
       text_table(columns, table, {.width = width, .repeated = 2});
   if (const auto runs = runs_to_decide(comparison)) {
     text += fmt::format("About {:.0f} runs would decide what is undecided.\n", *runs);

@@ -4,12 +4,14 @@
 
 #include <nlopt.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "tracker/filters/gains/rules.hpp"
 
@@ -65,7 +67,7 @@ constexpr std::array<GainFamily, 6> kRules = {{
 
 /// What NLopt minimises, and the best that it has seen.
 struct Search {
-  const GainFamily& family;
+  std::function<Gains(std::span<const double>)> gains_at;
   const std::function<double(const Gains&)>& cost;
   std::vector<double> best;
   double least = std::numeric_limits<double>::infinity();
@@ -77,7 +79,7 @@ struct Search {
     auto& search = *static_cast<Search*>(data);
     const std::span<const double> at(parameters, count);
     try {
-      const double cost = search.cost(search.family.at(at));
+      const double cost = search.cost(search.gains_at(at));
       if (cost < search.least) {
         search.least = cost;
         search.best.assign(at.begin(), at.end());
@@ -90,15 +92,16 @@ struct Search {
     }
   }
 
-  void run(nlopt_algorithm algorithm, int evaluations) {
+  void run(nlopt_algorithm algorithm, int evaluations, double least_parameter, double most,
+           double first_step, double tolerance) {
     const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(
-        nlopt_create(algorithm, family.parameters), nlopt_destroy);
+        nlopt_create(algorithm, static_cast<unsigned>(best.size())), nlopt_destroy);
     nlopt_set_min_objective(optimiser.get(), evaluate, this);
-    nlopt_set_lower_bounds1(optimiser.get(), 0.0);
-    nlopt_set_upper_bounds1(optimiser.get(), 1.0);
+    nlopt_set_lower_bounds1(optimiser.get(), least_parameter);
+    nlopt_set_upper_bounds1(optimiser.get(), most);
     nlopt_set_maxeval(optimiser.get(), evaluations);
-    nlopt_set_xtol_abs1(optimiser.get(), 1e-5);
-    if (algorithm == NLOPT_LN_SBPLX) nlopt_set_initial_step1(optimiser.get(), 0.05);
+    nlopt_set_xtol_abs1(optimiser.get(), tolerance);
+    if (algorithm == NLOPT_LN_SBPLX) nlopt_set_initial_step1(optimiser.get(), first_step);
     std::vector<double> parameters = best;
     double value = 0.0;
     running = optimiser.get();
@@ -137,11 +140,61 @@ std::vector<std::string_view> rules_with_a_family() {
 FoundGains least_cost(const GainFamily& family, const std::function<double(const Gains&)>& cost) {
   constexpr int kRough = 80;  // evaluations per parameter
   constexpr int kFine = 120;
-  Search search{family, cost, std::vector<double>(family.parameters, 0.5)};
+  Search search{family.at, cost, std::vector<double>(family.parameters, 0.5)};
   const int parameters = static_cast<int>(family.parameters);
-  search.run(NLOPT_GN_DIRECT_L, kRough * parameters * parameters);
-  search.run(NLOPT_LN_SBPLX, kFine * parameters);
+  search.run(NLOPT_GN_DIRECT_L, kRough * parameters * parameters, 0.0, 1.0, 0.05, 1e-5);
+  search.run(NLOPT_LN_SBPLX, kFine * parameters, 0.0, 1.0, 0.05, 1e-5);
   return {family.at(search.best), search.least};
+}
+
+FoundNumber least_cost_of_number(double low, double high, int points, int sections,
+                                 const std::function<double(double)>& cost) {
+  constexpr double kGolden = 0.6180339887498949;
+  const auto at = [&](double place) { return between(low, high, place / (points - 1)); };
+  FoundNumber best{low, std::numeric_limits<double>::infinity()};
+  double place = 0.0;
+  for (int i = 0; i < points; ++i) {
+    const double value = cost(at(i));
+    if (!(value < best.cost)) continue;
+    best = {at(i), value};
+    place = i;
+  }
+  double from = place - 1.0, to = place + 1.0;
+  for (int i = 0; i < sections; ++i) {
+    const double left = to - kGolden * (to - from);
+    const double right = from + kGolden * (to - from);
+    const double of_left = cost(at(left)), of_right = cost(at(right));
+    if (of_left < best.cost) best = {at(left), of_left};
+    if (of_right < best.cost) best = {at(right), of_right};
+    (of_left < of_right ? to : from) = of_left < of_right ? right : left;
+  }
+  return best;
+}
+
+FoundGains least_cost_near(const Gains& start, const std::function<double(const Gains&)>& cost) {
+  constexpr int kEvaluations = 35;    // per parameter
+  constexpr double kFarthest = 40.0;  // of the logarithm of the odds
+  // Shares of what stability leaves: of 2 to g, of 4 − 2g to h, of g h / (2 − g) to k.
+  const auto share_of = [](double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); };
+  const auto log_odds_of = [](double share) {
+    const double inside = std::clamp(share, 1e-15, 1.0 - 1e-12);
+    return std::log(inside / (1.0 - inside));
+  };
+  const auto gains_at = [&](std::span<const double> p) {
+    const double g = 2.0 * share_of(p[0]);
+    const double h = (4.0 - 2.0 * g) * share_of(p[1]);
+    if (start.order == 1) return Gains::of_gh(g, h);
+    return Gains::of_ghk(g, h, g * h / (2.0 - g) * share_of(p[2]));
+  };
+  std::vector<double> from = {log_odds_of(start.g / 2.0),
+                              log_odds_of(start.h / (4.0 - 2.0 * start.g))};
+  if (start.order == 2) {
+    from.push_back(log_odds_of(start.k * (2.0 - start.g) / (start.g * start.h)));
+  }
+  Search search{gains_at, cost, std::move(from)};
+  search.run(NLOPT_LN_SBPLX, kEvaluations * static_cast<int>(search.best.size()), -kFarthest,
+             kFarthest, 0.5, 1e-3);
+  return {gains_at(search.best), search.least};
 }
 
 }  // namespace ghtrack

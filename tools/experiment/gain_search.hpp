@@ -38,4 +38,18 @@ struct FoundGains {
 /// @param cost  finite, or +∞
 FoundGains least_cost(const GainFamily& family, const std::function<double(const Gains&)>& cost);
 
+/// A number and its cost.
+struct FoundNumber {
+  double at = 0.0;
+  double cost = 0.0;
+};
+
+/// The least cost of a positive number: the best of so many, from `low` to `high` in equal ratios,
+/// refined by so many golden sections between its neighbours.
+FoundNumber least_cost_of_number(double low, double high, int points, int sections,
+                                 const std::function<double(double)>& cost);
+
+/// The least cost in the whole stable region of g-h or g-h-k gains, by Subplex from a start in it.
+FoundGains least_cost_near(const Gains& start, const std::function<double(const Gains&)>& cost);
+
 }  // namespace ghtrack

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
+
+#include "tools/metrics/expected_error.hpp"
+#include "tracker/filters/smoother.hpp"
 
 namespace ghtrack {
 namespace {
@@ -25,43 +29,41 @@ void walk(const LabelledObject& object, const Advance& advance, const Visit& vis
   }
 }
 
-/// Takes down what each scan says of some objects.
-class ObjectRecorder final : public RunObserver {
- public:
-  ObjectRecorder(std::size_t objects, const std::vector<ObjectId>& wanted) : place_(objects) {
-    for (const ObjectId id : wanted) {
-      place_[static_cast<std::size_t>(id)] = objects_.size();
-      objects_.push_back({id, {}});
-    }
-  }
-
-  void add_observation(const TruthSnapshot& truth, const Observation& observation) override {
-    std::vector<std::optional<Detection>> made(place_.size());
-    for (std::size_t i = 0; i < observation.origins.size(); ++i) {
-      const ObjectId origin = observation.origins[i];
-      if (origin == kClutterOrigin || !place_[static_cast<std::size_t>(origin)]) continue;
-      made[static_cast<std::size_t>(origin)] = observation.scan.detections[i];
-    }
-    for (const TruthState& state : truth.objects) {
-      const auto id = static_cast<std::size_t>(state.id);
-      if (!place_[id]) continue;
-      std::vector<ObjectScan>& scans = objects_[*place_[id]].scans;
-      if (scans.empty() && !made[id]) continue;
-      scans.push_back({truth.time, state, made[id]});
-    }
-  }
-
-  std::vector<LabelledObject> objects() && {
-    std::erase_if(objects_, [](const LabelledObject& object) { return object.scans.empty(); });
-    return std::move(objects_);
-  }
-
- private:
-  std::vector<std::optional<std::size_t>> place_;  // of each object in `objects_`
-  std::vector<LabelledObject> objects_;
-};
-
 }  // namespace
+
+LabelledObjectRecorder::LabelledObjectRecorder(std::size_t objects,
+                                               const std::vector<ObjectId>& wanted,
+                                               std::size_t most_scans)
+    : place_(objects), most_scans_(most_scans) {
+  for (const ObjectId id : wanted) {
+    place_[static_cast<std::size_t>(id)] = objects_.size();
+    objects_.push_back({id, {}});
+  }
+}
+
+void LabelledObjectRecorder::add_observation(const TruthSnapshot& truth,
+                                             const Observation& observation) {
+  if (!is_complete()) return;
+  std::vector<std::optional<Detection>> made(place_.size());
+  for (std::size_t i = 0; i < observation.origins.size(); ++i) {
+    const ObjectId origin = observation.origins[i];
+    if (origin == kClutterOrigin || !place_[static_cast<std::size_t>(origin)]) continue;
+    made[static_cast<std::size_t>(origin)] = observation.scan.detections[i];
+  }
+  for (const TruthState& state : truth.objects) {
+    const auto id = static_cast<std::size_t>(state.id);
+    if (!place_[id]) continue;
+    std::vector<ObjectScan>& scans = objects_[*place_[id]].scans;
+    if (scans.empty() && !made[id]) continue;
+    scans.push_back({truth.time, state, made[id], observation.scan.sensor});
+    ++scans_;
+  }
+}
+
+std::vector<LabelledObject> LabelledObjectRecorder::objects() && {
+  std::erase_if(objects_, [](const LabelledObject& object) { return object.scans.empty(); });
+  return std::move(objects_);
+}
 
 std::vector<ObjectId> some_objects(const Trial& trial, std::size_t scans) {
   double each = 1.0;  // scans of one object
@@ -81,7 +83,7 @@ std::vector<ObjectId> some_objects(const Trial& trial, std::size_t scans) {
 
 std::vector<LabelledObject> labelled_objects(const Trial& trial, int run, const RunTruth& truth,
                                              const std::vector<ObjectId>& wanted) {
-  ObjectRecorder recorder(trial.objects().size(), wanted);
+  LabelledObjectRecorder recorder(trial.objects().size(), wanted);
   trial.listen(run, *truth.source(), {}, {&recorder});
   return std::move(recorder).objects();
 }
@@ -99,7 +101,7 @@ SquaredErrors measured_errors(Filter filter, const LabelledObject& object) {
     if (!scan.detection) {
       coast(filter);
     } else if (is_started(filter)) {
-      update(filter, scan.detection->position, scan.detection->covariance);
+      update(filter, *scan.detection);
     } else {
       start(filter, scan.detection->position, scan.detection->covariance);
     }
@@ -130,6 +132,54 @@ SquaredErrors expected_errors(GainFilter<2> filter, const LabelledObject& object
     sum.velocity.add((filter.estimate().velocity - scan.truth.velocity).squaredNorm() +
                      filter.noise_velocity_sigma().squaredNorm());
   });
+  return sum;
+}
+
+SquaredErrors expected_errors(const Filter& filter, const LabelledObject& object,
+                              std::span<const SensorConfig> sensors,
+                              std::span<const std::vector<ErrorPart>> errors) {
+  SquaredErrors sum;
+  std::optional<ExpectedError> error;
+  const auto advance = [&](const ObjectScan& scan, double /*dt*/) {
+    std::optional<SensedDetection> used;
+    if (scan.detection) {
+      const auto sensor = static_cast<std::size_t>(scan.sensor);
+      used.emplace(SensedDetection{sensors[sensor], errors[sensor], *scan.detection});
+    }
+    if (error) {
+      error->advance(scan.truth, scan.time, used);
+    } else if (used) {
+      error.emplace(filter, scan.truth, *used, scan.time, 0);
+    }
+  };
+  walk(object, advance, [&](const ObjectScan& scan) {
+    if (!error->is_known()) return;
+    const ExpectedError::Value value = error->value(scan.truth);
+    sum.position.add(value.position_square());
+    sum.velocity.add(value.velocity_square());
+  });
+  return sum;
+}
+
+SquaredErrors smoothed_errors(const SingleFilterConfig& config, const RunMetricsOptions& scoring,
+                              const LabelledObject& object) {
+  std::vector<TimedPosition> track;
+  for (const ObjectScan& scan : object.scans) {
+    TimedPosition& moment = track.emplace_back(TimedPosition{.time = scan.time, .position = {}});
+    if (!scan.detection) continue;
+    moment.position = scan.detection->position;
+    moment.covariance = scan.detection->covariance;
+  }
+  const std::vector<Smoothed> states = smoothed(config, scoring.sigma, scoring.period, track);
+  SquaredErrors sum;
+  std::size_t i = 0;
+  walk(
+      object, [&](const ObjectScan&, double) { ++i; },
+      [&](const ObjectScan& scan) {
+        const Kinematics<2>& state = states[i - 1].state;
+        sum.position.add((state.position - scan.truth.position).squaredNorm());
+        sum.velocity.add((state.velocity - scan.truth.velocity).squaredNorm());
+      });
   return sum;
 }
 

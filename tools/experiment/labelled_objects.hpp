@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sensors/detection.hpp"
 #include "sim/truth.hpp"
 #include "tools/experiment/trial.hpp"
+#include "tools/metrics/expected_measurement.hpp"
 #include "tools/metrics/mean.hpp"
 #include "tracker/filters/filter.hpp"
 
@@ -21,6 +24,7 @@ struct ObjectScan {
   double time = 0.0;  // [s]
   TruthState truth;
   std::optional<Detection> detection;  // made by the object
+  int sensor = 0;                      // that looked
 };
 
 /// An object from its first detection to its end.
@@ -33,6 +37,26 @@ struct LabelledObject {
 /// in a run. What is searched for or averaged over again and again need not see the whole of a large
 /// swarm.
 std::vector<ObjectId> some_objects(const Trial& trial, std::size_t scans);
+
+/// Takes down what each scan says of some objects, for so many scans of objects in all: what comes
+/// after them is left out, and the objects are incomplete.
+class LabelledObjectRecorder final : public RunObserver {
+ public:
+  LabelledObjectRecorder(std::size_t objects, const std::vector<ObjectId>& wanted,
+                         std::size_t most_scans = std::numeric_limits<std::size_t>::max());
+
+  void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
+
+  bool is_complete() const { return scans_ < most_scans_; }
+  /// Those that have been detected at all.
+  std::vector<LabelledObject> objects() &&;
+
+ private:
+  std::vector<std::optional<std::size_t>> place_;  // of each object in `objects_`
+  std::vector<LabelledObject> objects_;
+  std::size_t most_scans_;
+  std::size_t scans_ = 0;
+};
 
 /// Those of these objects that are detected at all in a run, by id.
 std::vector<LabelledObject> labelled_objects(const Trial& trial, int run, const RunTruth& truth,
@@ -55,6 +79,16 @@ SquaredErrors measured_errors(Filter filter, const LabelledObject& object);
 /// that it carries along, both exact for errors of the covariance that detections tell.
 /// @param filter  has not started yet
 SquaredErrors expected_errors(GainFilter<2> filter, const LabelledObject& object);
+
+/// The same for sensors of any kind, with their bias and outliers; nothing is added where errors have
+/// no variance. @param errors  of the sensors, by ObjectScan::sensor
+SquaredErrors expected_errors(const Filter& filter, const LabelledObject& object,
+                              std::span<const SensorConfig> sensors,
+                              std::span<const std::vector<ErrorPart>> errors);
+
+/// Errors of a smoother (see smoothed()), which knows all of the object's detections at every scan.
+SquaredErrors smoothed_errors(const SingleFilterConfig& config, const RunMetricsOptions& scoring,
+                              const LabelledObject& object);
 
 /// A filter with given gains, and least squares at the start.
 GainFilter<2> plain_filter(const Gains& gains, double sigma, double period);

@@ -15,13 +15,14 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 using Value = std::optional<double> ObjectReport::*;
 using Count = std::int64_t ObjectReport::*;
 
-/// The mean of a value over the objects, each weighed by how many scans it stands for.
+/// The mean of a value over the objects, each weighed by how many scans it stands for. What is not
+/// known of one of them is not known of all.
 double mean_of(const SubjectReport& subject, Value value, Count weight) {
   Mean mean;
   for (const ObjectId id : subject.objects) {
     const ObjectReport& object = subject.run.objects[static_cast<std::size_t>(id)];
     const auto scans = static_cast<double>(object.*weight);
-    if (object.*value && scans > 0.0) mean.add(*(object.*value), scans);
+    if (scans > 0.0) mean.add((object.*value).value_or(kNothing), scans);
   }
   return or_nan(mean.value());
 }
@@ -31,7 +32,8 @@ double root_mean_square_of(const SubjectReport& subject, Value value) {
   for (const ObjectId id : subject.objects) {
     const ObjectReport& object = subject.run.objects[static_cast<std::size_t>(id)];
     const auto scans = static_cast<double>(object.tracked);
-    if (const auto& root = object.*value; root && scans > 0.0) squares.add(*root * *root, scans);
+    const double root = (object.*value).value_or(kNothing);
+    if (scans > 0.0) squares.add(root * root, scans);
   }
   return or_nan(squares.root());
 }
@@ -67,7 +69,9 @@ double predicted_mai(const SubjectReport& s) {
 double nis(const SubjectReport& s) {
   return mean_of(s, &ObjectReport::nis, &ObjectReport::detections_used);
 }
-double predicted_nis(const SubjectReport&) { return 2.0; }
+double predicted_nis(const SubjectReport& s) {
+  return mean_of(s, &ObjectReport::predicted_nis, &ObjectReport::detections_used);
+}
 
 double peak_error(const SubjectReport& s) {
   double peak = kNothing;
@@ -121,7 +125,7 @@ double id_switches(const SubjectReport& s) {
 double false_tracks(const SubjectReport& s) { return of_scene(s, s.run.total.false_tracks); }
 
 constexpr std::array<MetricInfo, kMetrics> kInfo = {{
-    {"rmse_position", "RMSE of position", "m", "root mean square of the position's error",
+    {"rmse", "RMSE of position", "m", "root mean square of the position's error",
      Better::kLess, Average::kRootMeanSquare, rmse_position, predicted_rmse},
     {"rmse_velocity", "RMSE of velocity", "m/s", "root mean square of the velocity's error",
      Better::kLess, Average::kRootMeanSquare, rmse_velocity, predicted_velocity},

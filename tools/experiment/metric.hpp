@@ -42,7 +42,7 @@ struct SubjectReport {
 enum class Better { kLess, kMore, kNeither };
 
 struct MetricInfo {
-  std::string_view name;     // "rmse_position"
+  std::string_view name;     // "rmse"
   std::string_view title;    // "RMSE of position"
   std::string_view unit;     // "m"; "1" for pure numbers
   std::string_view meaning;  // one clause

@@ -51,7 +51,8 @@ class ContenderScores final : public RunObserver {
   ContenderScores(const Trial& trial, std::size_t contender)
       : trial_(trial),
         contender_(contender),
-        metrics_(trial.objects(), trial.scoring(), contender),
+        metrics_(trial.objects(), trial.scoring(), contender,
+                 FilterTheory{trial.design(contender), trial.scene().sensors}),
         bins_(trial.regimes().size() * TrialLayout::kBins) {
     for (const ObjectInfo& object : trial.objects()) {
       const auto found = std::find(trial.regimes().begin(), trial.regimes().end(), object.regime);
@@ -64,8 +65,9 @@ class ContenderScores final : public RunObserver {
   }
 
   void add_tracks(const StepRecord& record) override {
-    if (record.contender != contender_ || !record.is_in_order()) return;
+    if (record.contender != contender_) return;
     metrics_.add_tracks(record);
+    if (!record.is_in_order()) return;
     const double share = record.truth.time / trial_.scene().duration;
     const std::size_t bin = std::min(TrialLayout::kBins - 1,
                                      static_cast<std::size_t>(share * double{TrialLayout::kBins}));
@@ -129,7 +131,6 @@ Trial::Trial(const WorldScene& scene, std::function<void()> on_step)
       contenders_(compared_filters(scene)),
       scoring_(scoring_for(traits_of(scene.sensors))),
       truth_(scene, on_step_) {
-  scoring_.with_floor = false;
   objects_ = world_of_run(scene, 0).objects();
   regimes_ = regimes_of(objects_);
   subjects_ = subjects_of(objects_, regimes_);

@@ -1,12 +1,18 @@
 #include "tools/experiment/tuning.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <utility>
 
+#include "scenes/schema/descriptions.hpp"
+#include "scenes/schema/value_json.hpp"
 #include "tools/experiment/analysis.hpp"
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/gain_search.hpp"
@@ -22,39 +28,71 @@ constexpr std::size_t kMostScans = 200'000;  // that one evaluation goes through
 /// One regime's objects in several runs.
 using Runs = std::vector<std::vector<LabelledObject>>;
 
-/// The filter that a scene makes of {gh: {g: …, h: …}}.
-Filter filter_with(const Gains& gains, const RunMetricsOptions& sensor) {
+/// So many digits are printed, and so many are judged.
+double rounded(double value) {
+  return std::stod(fmt::format("{:.4g}", value));
+}
+
+/// {gh: {g: …, h: …}}
+FilterConfig config_of(const Gains& gains) {
+  if (gains.order == 0) {
+    return Order0Config{.design = gain_design::Manual<0>{rounded(gains.g), 0.0, 0.0}};
+  }
   if (gains.order == 1) {
-    return make_filter(GhConfig{.design = gain_design::Manual<1>{gains.g, gains.h, 0.0}},
-                       sensor.sigma, sensor.period);
+    return GhConfig{.design = gain_design::Manual<1>{rounded(gains.g), rounded(gains.h), 0.0}};
   }
-  return make_filter(GhkConfig{.design = gain_design::Manual<2>{gains.g, gains.h, gains.k}},
-                     sensor.sigma, sensor.period);
+  return GhkConfig{.design = gain_design::Manual<2>{rounded(gains.g), rounded(gains.h),
+                                                    rounded(gains.k)}};
 }
 
-/// RMSE of each run; NaN where nothing was seen.
-std::vector<double> rmse_of_runs(const Filter& filter, const Runs& runs) {
-  std::vector<double> all;
-  for (const std::vector<LabelledObject>& run : runs) {
-    SquaredErrors sum;
-    for (const LabelledObject& object : run) sum += measured_errors(filter, object);
-    all.push_back(or_nan(sum.position.root()));
-  }
-  return all;
+/// {gh: {design: tracking-index, process_noise: …}}
+template <int Order>
+FilterConfig tracking_index_config(double process_noise) {
+  gain_design::TrackingIndex<Order> design;
+  design.process_noise = rounded(process_noise);
+  return GainFilterConfig<Order>{.design = design};
 }
 
-double pooled_rmse(const Filter& filter, const Runs& runs) {
-  SquaredErrors sum;
-  for (const std::vector<LabelledObject>& run : runs) {
-    for (const LabelledObject& object : run) sum += measured_errors(filter, object);
+/// {kalman-cv: {process_noise: …}}
+template <int Order>
+FilterConfig kalman_config(double process_noise) {
+  process::PiecewiseConstant noise;
+  noise.process_noise = rounded(process_noise);
+  return KalmanConfig<Order>{.model = noise};
+}
+
+/// Without what a scene need not say.
+std::string text_of(const FilterConfig& config) {
+  using Json = nlohmann::ordered_json;
+  const schema::Type& type = schema::type_of<FilterConfig>();
+  Json said = schema::to_json(type, &config);
+  const FilterConfig plain = std::visit(
+      [](const auto& chosen) { return FilterConfig(std::decay_t<decltype(chosen)>{}); }, config);
+  const Json by_default = schema::to_json(type, &plain);
+  if (said.is_object() && said.size() == 1 && said.begin()->is_object()) {
+    const std::string kind = said.begin().key();
+    Json short_one = Json::object();
+    for (const auto& [key, value] : said.at(kind).items()) {
+      const bool is_default = by_default.contains(kind) && by_default.at(kind).contains(key) &&
+                              by_default.at(kind).at(key) == value;
+      if (!is_default) short_one[key] = value;
+    }
+    said = Json{{kind, std::move(short_one)}};
   }
-  return or_nan(sum.position.root());
+  std::string text;
+  for (const char c : said.dump()) {
+    if (c == '"') continue;
+    text += c;
+    if (c == ',' || c == ':') text += ' ';
+  }
+  return text;
 }
 
 /// A filter that is to be judged.
 struct Candidate {
   std::string origin;
-  Filter filter;
+  TrackerDesign design;
+  std::optional<FilterConfig> config;  // absent: several of the scene's side by side
 };
 
 /// Tunes and judges one regime.
@@ -63,7 +101,7 @@ class RegimeTuner {
   RegimeTuner(const Trial& trial, const std::string& regime, Runs training, Runs judging,
               const TuningOptions& options)
       : trial_(trial),
-        sensor_(trial.scoring()),
+        sensor_(best_sensor(traits_of(trial.scene().sensors))),
         regime_(regime),
         training_(std::move(training)),
         judging_(std::move(judging)),
@@ -73,87 +111,190 @@ class RegimeTuner {
     TunedRegime tuned;
     tuned.regime = regime_;
     tuned.acceleration = std::sqrt(0.5 * theory.square_acceleration);
+    tuned.correlation_time = correlation_time(theory);
     tuned.tracking_index = tracking_index(tuned.acceleration, sensor_.sigma, sensor_.period);
-    tuned.bound = theory.bound_position;
+    tuned.hindsight = theory.hindsight;
 
     std::vector<Candidate> candidates;
-    double least = std::numeric_limits<double>::infinity();
-    for (const int order : options_.orders) {
-      const FoundGains found = search(order);
-      candidates.push_back({"tuned", filter_with(found.gains, sensor_)});
-      if (!(found.cost < least)) continue;
-      least = found.cost;
-      tuned.best = found.gains;
-    }
-    const std::vector<double> winner = rmse_of_runs(filter_with(tuned.best, sensor_), judging_);
+    add_scene(candidates);
+    add_tuned(candidates);
     add_designs(theory, candidates);
-    add_named_filters(candidates);
+    std::vector<std::vector<double>> rmse;
     for (const Candidate& candidate : candidates) {
-      tuned.judged.push_back(judge(candidate, winner));
+      rmse.push_back(rmse_of_runs(candidate.design, judging_));
     }
+    tuned.recommended = recommended(candidates, rmse);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      tuned.judged.push_back(judge(candidates[i], rmse[i], rmse[tuned.recommended]));
+    }
+    tuned.best = steady_gains(candidates[tuned.recommended].design.filter_for(regime_, 0));
     return tuned;
   }
 
  private:
-  FoundGains search(int order) const {
-    const GainFamily family =
-        options_.rule ? *gains_of_rule(*options_.rule, order) : stable_gains(order);
-    return least_cost(family, [&](const Gains& gains) {
-      trial_.step();
-      const double rmse = pooled_rmse(filter_with(gains, sensor_), training_);
-      return std::isfinite(rmse) ? rmse : std::numeric_limits<double>::infinity();
+  /// The sensor that filters are designed for, see TrackerDesign.
+  static SensorTraits best_sensor(const std::vector<SensorTraits>& sensors) {
+    return *std::min_element(sensors.begin(), sensors.end(), [](const auto& a, const auto& b) {
+      return a.sigma * a.sigma * a.period < b.sigma * b.sigma * b.period;
     });
   }
 
-  /// Gains by rule, from the regime's own statistics: Kalata's for its accelerations, and the other
-  /// rules' at the same g.
-  void add_designs(const SubjectTheory& theory, std::vector<Candidate>& candidates) const {
+  /// τ of an acceleration whose correlation falls as e^(−t/τ), from that of neighbouring scans.
+  double correlation_time(const SubjectTheory& theory) const {
+    const double rho = theory.square_acceleration > 0.0
+                           ? theory.square_autocorrelation / theory.square_acceleration
+                           : 0.0;
+    if (!(rho > 0.0)) return 0.0;
+    const double longest = trial_.scene().duration;
+    return rho < 1.0 ? std::min(longest, -sensor_.period / std::log(rho)) : longest;
+  }
+
+  TrackerDesign design_of(const FilterConfig& filter) const {
+    TrackerConfig config = trial_.scene().tracker;
+    config.association = Association::kNearestGlobal;  // filters do not depend on it
+    config.filters = {{std::string(TrackerConfig::kDefaultFilter), filter}};
+    return {std::move(config), traits_of(trial_.scene().sensors)};
+  }
+
+  SquaredErrors errors(const TrackerDesign& design, const LabelledObject& object) const {
+    return measured_errors(design.filter_for(regime_, object.scans.front().sensor), object);
+  }
+
+  double pooled_rmse(const TrackerDesign& design, const Runs& runs) const {
+    SquaredErrors sum;
+    for (const std::vector<LabelledObject>& run : runs) {
+      for (const LabelledObject& object : run) sum += errors(design, object);
+    }
+    return sum.position.root().value_or(std::numeric_limits<double>::infinity());
+  }
+
+  /// RMSE of each run; NaN where nothing was seen.
+  std::vector<double> rmse_of_runs(const TrackerDesign& design, const Runs& runs) const {
+    std::vector<double> all;
+    for (const std::vector<LabelledObject>& run : runs) {
+      SquaredErrors sum;
+      for (const LabelledObject& object : run) sum += errors(design, object);
+      all.push_back(or_nan(sum.position.root()));
+    }
+    return all;
+  }
+
+  double training_cost(const FilterConfig& config) const {
+    trial_.step();
+    const double rmse = pooled_rmse(design_of(config), training_);
+    return std::isfinite(rmse) ? rmse : std::numeric_limits<double>::infinity();
+  }
+
+  void add(const std::string& origin, const FilterConfig& config,
+           std::vector<Candidate>& candidates) const {
+    candidates.push_back({origin, design_of(config), config});
+  }
+
+  /// What the scene uses for the regime, and what it compares.
+  void add_scene(std::vector<Candidate>& candidates) const {
+    TrackerConfig config = trial_.scene().tracker;
+    config.association = Association::kNearestGlobal;
+    std::optional<FilterConfig> own;
+    for (const std::string& label : {regime_, std::string(TrackerConfig::kDefaultFilter)}) {
+      const auto found = config.filters.find(label);
+      if (!own && found != config.filters.end()) own = found->second;
+    }
+    candidates.push_back(
+        {"scene", TrackerDesign(std::move(config), traits_of(trial_.scene().sensors)), own});
+    for (const auto& [name, filter] : trial_.scene().compare.filters) add(name, filter, candidates);
+  }
+
+  void add_tuned(std::vector<Candidate>& candidates) const {
     for (const int order : options_.orders) {
-      const double jump = order == 1 ? std::sqrt(0.5 * theory.square_acceleration)
+      const GainFamily family =
+          options_.rule ? *gains_of_rule(*options_.rule, order) : stable_gains(order);
+      const FoundGains found = least_cost(
+          family, [&](const Gains& gains) { return training_cost(config_of(gains)); });
+      add("tuned", config_of(found.gains), candidates);
+    }
+    if (options_.rule || options_.orders.size() < 2) return;
+    const FoundNumber g = least_cost_of_number(1e-3, 1.5, 9, 6, [&](double at) {
+      return training_cost(config_of(Gains::of_g(at)));
+    });
+    add("tuned", config_of(Gains::of_g(g.at)), candidates);
+    add_tuned_noise(tracking_index_config<1>, 1, candidates);
+    add_tuned_noise(tracking_index_config<2>, 2, candidates);
+    add_tuned_noise(kalman_config<1>, 1, candidates);
+    add_tuned_noise(kalman_config<2>, 2, candidates);
+    add("models", ImmConfig{}, candidates);
+  }
+
+  /// Filters with the best process noise, over tracking indices from 10^-4 to 100.
+  void add_tuned_noise(FilterConfig (*config)(double), int order,
+                       std::vector<Candidate>& candidates) const {
+    const double unit = intensity_of_index(ProcessModel::kPiecewiseConstant, 1.0, sensor_.sigma,
+                                           sensor_.period);
+    const FoundNumber noise = least_cost_of_number(
+        1e-4 * unit, 1e2 * unit, order == 1 ? 10 : 8, 6,
+        [&](double at) { return training_cost(config(at)); });
+    add("tuned", config(noise.at), candidates);
+  }
+
+  /// Gains by rule, from the regime's own statistics: Kalata's for its accelerations, and the other
+  /// rules' at the same g. An acceleration a that lasts for τ disturbs a filter as white noise does
+  /// of a √(2τ / T) at each step.
+  void add_designs(const SubjectTheory& theory, std::vector<Candidate>& candidates) const {
+    const double lasting =
+        std::sqrt(std::max(1.0, 2.0 * correlation_time(theory) / sensor_.period));
+    for (const int order : options_.orders) {
+      const double jump = order == 1 ? lasting * std::sqrt(0.5 * theory.square_acceleration)
                                      : sensor_.period * std::sqrt(0.5 * theory.square_jerk);
       const double index =
           std::clamp(tracking_index(jump, sensor_.sigma, sensor_.period), 1e-5, 1e3);
       const Gains kalata = tracking_index_gains(order, index);
       const double theta = order == 1 ? std::sqrt(1.0 - kalata.g) : std::cbrt(1.0 - kalata.g);
-      candidates.push_back({"tracking-index", filter_with(kalata, sensor_)});
-      candidates.push_back({"benedict-bordner",
-                            filter_with(order == 1 ? benedict_bordner_gains(kalata.g)
-                                                   : third_order_benedict_bordner_gains(kalata.g),
-                                        sensor_)});
-      candidates.push_back(
-          {"critical-damping", filter_with(fading_memory_gains(order, theta), sensor_)});
+      add("tracking-index", config_of(kalata), candidates);
+      add("benedict-bordner",
+          config_of(order == 1 ? benedict_bordner_gains(kalata.g)
+                               : third_order_benedict_bordner_gains(kalata.g)),
+          candidates);
+      add("critical-damping", config_of(fading_memory_gains(order, theta)), candidates);
     }
   }
 
-  /// What the scene would use, and what it compares.
-  void add_named_filters(std::vector<Candidate>& candidates) const {
-    TrackerConfig config = trial_.scene().tracker;
-    config.association = Association::kNearestGlobal;  // filters do not depend on it
-    const TrackerDesign own(std::move(config), traits_of(trial_.scene().sensors));
-    candidates.push_back({"tracker", own.filter_for(regime_, 0)});
-    for (std::size_t i = 0; i < trial_.contenders().size(); ++i) {
-      if (trial_.scene().compare.filters.empty()) break;
-      candidates.push_back({trial_.contenders()[i].name, trial_.design(i).filter_for(regime_, 0)});
+  /// The least error in judging. The scene's own filter, the first one, stays unless the best one is
+  /// better by more than the interval of their difference.
+  std::size_t recommended(const std::vector<Candidate>& candidates,
+                          const std::vector<std::vector<double>>& rmse) const {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const double error = mean_of(rmse[i], Average::kRootMeanSquare).mean;
+      if (!candidates[i].config || !(error < least)) continue;
+      least = error;
+      best = i;
     }
+    const PairedDifference worse =
+        paired_difference(rmse[0], rmse[best], Average::kRootMeanSquare, 0.95);
+    const bool is_better = !worse.interval || worse.interval->low > 0.0;
+    return candidates[0].config && !is_better ? 0 : best;
   }
 
-  JudgedGains judge(const Candidate& candidate, const std::vector<double>& winner) const {
-    const std::vector<double> rmse = rmse_of_runs(candidate.filter, judging_);
+  JudgedGains judge(const Candidate& candidate, const std::vector<double>& rmse,
+                    const std::vector<double>& winner) const {
+    const Filter& filter = candidate.design.filter_for(regime_, 0);
     const SampleMean mean = mean_of(rmse, Average::kRootMeanSquare);
-    const PairedDifference difference = paired_difference(rmse, winner, Average::kRootMeanSquare, 0.95);
-    const bool several = std::holds_alternative<MultipleModelFilter>(candidate.filter);
+    const PairedDifference difference =
+        paired_difference(rmse, winner, Average::kRootMeanSquare, 0.95);
+    const bool several = std::holds_alternative<MultipleModelFilter>(filter);
     return {.origin = candidate.origin,
-            .filter = several ? "multiple-model" : std::string(name(candidate.filter)),
-            .gains = several ? "" : gains_text(candidate.filter),
-            .trained_rmse = pooled_rmse(candidate.filter, training_),
+            .filter = several ? "multiple-model" : std::string(name(filter)),
+            .gains = several ? "" : gains_text(filter),
+            .trained_rmse = pooled_rmse(candidate.design, training_),
             .rmse = mean.mean,
             .ci95 = mean.ci95,
             .difference = difference.value,
-            .difference_ci95 = difference.interval};
+            .difference_ci95 = difference.interval,
+            .text = candidate.config ? text_of(*candidate.config) : ""};
   }
 
   const Trial& trial_;
-  const RunMetricsOptions& sensor_;
+  SensorTraits sensor_;
   std::string regime_;
   Runs training_;
   Runs judging_;
@@ -195,9 +336,8 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
   const Trial trial(scene, on_step);
   const Runs training = labelled_runs(trial, kFirstTuningRun, options);
   const Runs judging = labelled_runs(trial, kFirstJudgingRun, options);
-  std::vector<RunTruth> truths;
-  for (int run = 0; run < theory_runs(scene); ++run) truths.push_back(trial.truth_of(run, true));
-  const std::vector<SubjectTheory> theory = theory_of(trial, truths, options.jobs);
+  const std::vector<SubjectTheory> theory =
+      theory_of(trial, kFirstJudgingRun, options.runs, options.jobs);
 
   std::vector<std::size_t> regimes;  // among the subjects
   for (std::size_t i = 0; i < trial.subjects().size(); ++i) {
@@ -216,7 +356,7 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
                                     runs_of(judging, subject), options)
                             .result(theory[regimes[i]]);
   });
-  tuning.surfaces = gain_surfaces(trial, truths.front(), options.jobs);
+  tuning.surfaces = gain_surfaces(trial, trial.truth_of(kFirstTuningRun), options.jobs);
   return tuning;
 }
 

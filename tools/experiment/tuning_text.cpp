@@ -22,14 +22,6 @@ Json range(const std::optional<Interval>& interval) {
   return Json::array({number(interval->low), number(interval->high)});
 }
 
-/// "{gh: {g: 0.4, h: 0.1}}", to four digits: what is left out is far below what a tuning can tell.
-std::string filter_text(const Gains& gains) {
-  std::string text = gains.order == 1 ? "{gh: {g: " : "{ghk: {g: ";
-  text += fmt::format("{:.4g}, h: {:.4g}", gains.g, gains.h);
-  if (gains.order == 2) text += fmt::format(", k: {:.4g}", gains.k);
-  return text + "}}";
-}
-
 Json judged_json(const JudgedGains& judged) {
   return {{"origin", judged.origin},
           {"filter", judged.filter},
@@ -38,7 +30,8 @@ Json judged_json(const JudgedGains& judged) {
           {"rmse", number(judged.rmse)},
           {"ci95", range(judged.ci95)},
           {"difference", number(judged.difference)},
-          {"difference_ci95", range(judged.difference_ci95)}};
+          {"difference_ci95", range(judged.difference_ci95)},
+          {"text", judged.text}};
 }
 
 std::string plus_minus(const std::optional<Interval>& interval) {
@@ -51,7 +44,8 @@ std::string plus_minus(const std::optional<Interval>& interval) {
 std::string scene_fragment(const Tuning& tuning) {
   std::string text = "tracker:\n  filters:\n";
   for (const TunedRegime& regime : tuning.regimes) {
-    text += "    " + regime.regime + ": " + filter_text(regime.best) + "\n";
+    const JudgedGains& recommended = regime.judged.at(regime.recommended);
+    text += "    " + regime.regime + ": " + recommended.text + "\n";
   }
   return text;
 }
@@ -64,10 +58,15 @@ nlohmann::ordered_json to_json(const Tuning& tuning) {
     regimes.push_back({{"regime", regime.regime},
                        {"acceleration", number(regime.acceleration)},
                        {"tracking_index", number(regime.tracking_index)},
-                       {"bound", number(regime.bound)},
+                       {"raw", number(regime.hindsight.raw)},
+                       {"best_fixed_gains", number(regime.hindsight.best_fixed_gains)},
+                       {"crlb", nullptr},
+                       {"smoother", number(regime.hindsight.smoother)},
                        {"g", regime.best.g},
-                       {"h", regime.best.h},
+                       {"h", regime.best.order >= 1 ? Json(regime.best.h) : Json(nullptr)},
                        {"k", regime.best.order == 2 ? Json(regime.best.k) : Json(nullptr)},
+                       {"correlation_time", number(regime.correlation_time)},
+                       {"recommended", regime.recommended},
                        {"judged", std::move(judged)}});
   }
   return {{"scene", tuning.scene}, {"training_runs", tuning.runs}, {"judging_runs", tuning.runs},
@@ -80,34 +79,43 @@ std::string to_table(const Tuning& tuning, std::size_t width) {
       "judging\n",
       tuning.runs, tuning.runs);
   for (const TunedRegime& regime : tuning.regimes) {
-    text += fmt::format("\n{}: acceleration {:.3g} m/s² per axis, tracking index {:.3g}\n",
-                        regime.regime, regime.acceleration, regime.tracking_index);
+    text += fmt::format("\n{}: acceleration {:.3g} m/s² per axis, tracking index {:.3g}, correlated "
+                        "over {:.2g} s\n",
+                        regime.regime, regime.acceleration, regime.tracking_index,
+                        regime.correlation_time);
     std::vector<const JudgedGains*> ranking;
     for (const JudgedGains& judged : regime.judged) ranking.push_back(&judged);
     std::stable_sort(ranking.begin(), ranking.end(),
                      [](const JudgedGains* a, const JudgedGains* b) { return a->rmse < b->rmse; });
     std::vector<std::vector<std::string>> lines;
     for (const JudgedGains* judged : ranking) {
-      const bool wins = judged == ranking.front();
+      const bool wins = judged == &regime.judged.at(regime.recommended);
       lines.push_back(
           {(wins ? "* " : "  ") + printable(judged->origin, 18), judged->filter, judged->gains,
            fmt::format("{:.4g}", judged->trained_rmse),
            fmt::format("{:.4g}{}", judged->rmse, plus_minus(judged->ci95)),
            fmt::format("{:+.3g}{}", judged->difference, plus_minus(judged->difference_ci95))});
     }
-    lines.push_back(
-        {"  bound", "", "", "", regime.bound ? fmt::format("{:.4g}", *regime.bound) : "", ""});
+    const Hindsight& hindsight = regime.hindsight;
+    const auto add_reference = [&](const char* what, const std::string& gains,
+                                   const std::optional<double>& rmse) {
+      if (rmse) lines.push_back({what, "", gains, "", fmt::format("{:.4g}", *rmse), ""});
+    };
+    add_reference("  raw detections", "", hindsight.raw);
+    add_reference("  best fixed gains", to_text(hindsight.best), hindsight.best_fixed_gains);
+    add_reference("  smoother", "", hindsight.smoother);
     text += text_table({{"  gains from", 20, false},
                         {"filter", 14, false},
                         {"gains", 34, false},
                         {"tuned on", 10, true},
                         {"judged on", 18, true},
-                        {"to tuned", 18, true}},
+                        {"to recommended", 18, true}},
                        lines, {.width = width, .repeated = 2});
   }
   return text +
-         "\n* the least error in judging; to tuned: difference to the tuned gains; bound: the least\n"
-         "  that gains of fixed design can expect. ± half of a 95 % interval\n";
+         "\n* recommended: the least error in judging, or the scene's own if none is better for\n"
+         "  sure; to recommended: difference to that; best fixed gains: chosen after judging, by their expected error; smoother: knows later detections, too.\n"
+         "  ± half of a 95 % interval\n";
 }
 
 }  // namespace ghtrack

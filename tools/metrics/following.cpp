@@ -1,6 +1,10 @@
 #include "tools/metrics/following.hpp"
 
+#include <bit>
+#include <cstdint>
 #include <utility>
+
+#include "sim/random.hpp"
 
 namespace ghtrack {
 
@@ -19,8 +23,28 @@ std::vector<const TruthState*> states_by_id(const TruthSnapshot& truth, std::siz
   return states;
 }
 
+namespace {
+
+/// Differs from run to run, so that what shadows are shown does, too.
+std::uint64_t key_of(const Vec2& position) {
+  return combine(std::bit_cast<std::uint64_t>(position.x()),
+                 std::bit_cast<std::uint64_t>(position.y()));
+}
+
+}  // namespace
+
+Following::Following(std::size_t objects, const std::optional<FilterTheory>& theory)
+    : objects_(objects), theory_(theory) {
+  if (!theory_) return;
+  for (const SensorConfig& sensor : theory_->sensors) {
+    errors_.push_back(error_parts(sensor).value_or(std::vector<ErrorPart>{}));
+  }
+}
+
 void Following::update(const StepRecord& record) {
   const std::vector<const TruthState*> state_of = states_by_id(record.truth, objects_);
+  const Scan& scan = record.observation.scan;
+  const auto sensor = static_cast<std::size_t>(scan.sensor);
   std::unordered_map<int, Followed> now;
   for (const TrackEstimate& track : record.tracks.tracks) {
     const auto before = followed_.find(track.id);
@@ -30,20 +54,41 @@ void Following::update(const StepRecord& record) {
     if (!object) continue;
     const TruthState* const truth = state_of.at(static_cast<std::size_t>(*object));
     if (truth == nullptr) continue;
-    const double time = record.truth.time;
-    Followed followed{*object, is_known ? before->second.lag : ExpectedLag(*truth, time)};
-    if (is_known && track.designed) {
-      followed.lag.advance(*truth, time, *track.designed, track.residual.has_value());
+    Followed followed{*object, {}};
+    if (is_known) followed.error = std::move(before->second.error);
+    if (theory_) {
+      std::optional<SensedDetection> used;
+      if (track.detection) {
+        used.emplace(SensedDetection{theory_->sensors[sensor], errors_[sensor],
+                                     scan.detections.at(*track.detection)});
+      }
+      if (followed.error) {
+        followed.error->advance(*truth, scan.time, used);
+      } else if (!is_known && used) {
+        const Filter& fresh = theory_->design.filter_for(used->detection.label, scan.sensor);
+        followed.error.emplace(fresh, *truth, *used, scan.time, key_of(used->detection.position));
+      }
     }
-    now.emplace(track.id, followed);
+    now.emplace(track.id, std::move(followed));
   }
   followed_ = std::move(now);
+}
+
+void Following::lose_count() {
+  for (auto& [track, followed] : followed_) followed.error.reset();
 }
 
 std::optional<ObjectId> Following::object_of(int track) const {
   const auto found = followed_.find(track);
   if (found == followed_.end()) return std::nullopt;
   return found->second.object;
+}
+
+std::optional<ExpectedError::Value> Following::expected(int track, const TruthState& truth) const {
+  const auto found = followed_.find(track);
+  if (found == followed_.end() || !found->second.error) return std::nullopt;
+  if (!found->second.error->is_known()) return std::nullopt;
+  return found->second.error->value(truth);
 }
 
 }  // namespace ghtrack

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "tools/metrics/expected_lag.hpp"
+#include "tools/metrics/expected_error.hpp"
 #include "tools/record/step_record.hpp"
+#include "tracker/tracker_design.hpp"
 
 namespace ghtrack {
 
@@ -15,28 +17,40 @@ std::optional<ObjectId> used_object(const TrackEstimate& track, const Observatio
 /// The state of each of so many objects; null for one that is not there.
 std::vector<const TruthState*> states_by_id(const TruthSnapshot& truth, std::size_t objects);
 
+/// What the errors of a tracker's filters follow from. Both outlive who is told of them.
+struct FilterTheory {
+  const TrackerDesign& design;
+  std::span<const SensorConfig> sensors;  // by Scan::sensor
+};
+
 /// Which track follows which object: the one that last gave it a detection, however far away the
-/// track is. And how far each track would lag behind its object without noise.
+/// track is. And what error is to be expected of each track.
 class Following {
  public:
-  explicit Following(std::size_t objects) : objects_(objects) {}
+  /// @param theory  without it nothing is expected
+  Following(std::size_t objects, const std::optional<FilterTheory>& theory);
 
   /// Goes on to the next scan.
   void update(const StepRecord& record);
 
+  /// A scan has come late, and changed what tracks know in a way that nobody follows.
+  void lose_count();
+
   /// The object that a track follows.
   std::optional<ObjectId> object_of(int track) const;
 
-  /// The lag of a track that follows an object, at the latest scan.
-  const ExpectedLag::Value& lag_of(int track) const { return followed_.at(track).lag.value(); }
+  /// Of a track that follows an object, at the latest scan; nothing if it is not known.
+  std::optional<ExpectedError::Value> expected(int track, const TruthState& truth) const;
 
  private:
   struct Followed {
     ObjectId object = 0;
-    ExpectedLag lag;
+    std::optional<ExpectedError> error;
   };
 
   std::size_t objects_;
+  std::optional<FilterTheory> theory_;
+  std::vector<std::vector<ErrorPart>> errors_;  // by Scan::sensor; none if they have no variance
   std::unordered_map<int, Followed> followed_;  // by live track
 };
 

@@ -4,20 +4,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "tools/metrics/output.hpp"
 #include "tracker/filters/gain_filter.hpp"
-#include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {
 namespace {
 
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
 std::optional<double> root_mean(double sum, std::int64_t count) {
   if (count == 0) return std::nullopt;
   return std::sqrt(sum / static_cast<double>(count));
+}
+
+/// As many independent values have a mean of the same variance as these squares of errors, whose
+/// correlations are ρ² for errors that are normally distributed: n² / Σ Σ ρ².
+double effective_count(std::int64_t values, double memory) {
+  const auto n = static_cast<double>(values);
+  return std::max(1.0, n * n / memory);
 }
 
 std::optional<double> mean(double sum, std::int64_t count) {
@@ -39,19 +46,17 @@ RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors) {
 }
 
 RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options,
-                       std::size_t contender)
+                       std::size_t contender, const std::optional<FilterTheory>& theory)
     : objects_(std::move(objects)),
       options_(options),
       contender_(contender),
       tallies_(objects_.size()),
-      following_(objects_.size()),
+      following_(objects_.size(), theory),
       latest_errors_(objects_.size()),
       mot_({options.gospa().cutoff, options.gospa().order}) {
-  if (options.with_floor) floor_.emplace(objects_.size(), options.sigma, options.period);
 }
 
 void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& observation) {
-  if (floor_) floor_->add_observation(truth, observation);
   const std::vector<const TruthState*> state_of = states_by_id(truth, objects_.size());
   for (std::size_t i = 0; i < observation.origins.size(); ++i) {
     if (observation.origins[i] == kClutterOrigin) continue;
@@ -65,8 +70,9 @@ void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& 
 }
 
 void RunMetrics::add_tracks(const StepRecord& record) {
-  if (record.contender != contender_ || !record.is_in_order()) return;
-  if (floor_) floor_->go_to(record.tracks.time, record.tracks.sensor);
+  if (record.contender != contender_) return;
+  if (record.fate == ScanFate::kReplayed) following_.lose_count();
+  if (!record.is_in_order()) return;
   score_sets(record);
   following_.update(record);
 
@@ -179,16 +185,12 @@ RunMetrics::ScanScore RunMetrics::score_of(const TruthState& truth, const TrackE
   ScanScore score{.time = time,
                   .error = track.position - truth.position,
                   .squared_velocity_error = (track.velocity - truth.velocity).squaredNorm(),
-                  .predicted_square = track.noise_sigma.squaredNorm(),
-                  .expected = expected_of(truth, track),
-                  .floor_square = floor_ ? floor_->squared_errors(truth.id) : std::nullopt,
+                  .expected = following_.expected(track.id, truth),
                   .filter = track.filter,
                   .gains = track.gains};
   if (const double speed = truth.velocity.norm(); speed > 0.0) {
-    score.lag = -score.error.dot(truth.velocity) / speed;
-  }
-  if (score.expected) {
-    score.predicted_square += following_.lag_of(track.id).position.squaredNorm();
+    score.direction = truth.velocity / speed;
+    score.lag = -score.error.dot(score.direction);
   }
   if (track.covariance.determinant() > 0.0) {
     score.nees = score.error.dot(track.covariance.inverse() * score.error);
@@ -197,28 +199,16 @@ RunMetrics::ScanScore RunMetrics::score_of(const TruthState& truth, const TrackE
   const Vec2& residual = *track.residual;
   score.innovation = residual.norm();
   if (track.innovation_covariance.determinant() > 0.0) {
-    score.nis = residual.dot(track.innovation_covariance.inverse() * residual);
+    const Eigen::Matrix2d inverse = track.innovation_covariance.inverse();
+    score.nis = residual.dot(inverse * residual);
+    if (score.expected && score.expected->innovation) {
+      const auto& [mean, covariance, length, memory] = *score.expected->innovation;
+      // Of shadows, S varies with the residual, and more than their mean would be needed.
+      score.expected_nis =
+          memory ? (inverse * covariance).trace() + mean.dot(inverse * mean) : kNothing;
+    }
   }
   return score;
-}
-
-/// The length of a residual whose two components have the lag m and the standard deviation s is
-/// about √(|m|² + π s² / 2), exact without lag (Rayleigh) and without noise.
-std::optional<RunMetrics::ScanScore::Expected> RunMetrics::expected_of(
-    const TruthState& truth, const TrackEstimate& track) const {
-  if (!track.designed) return std::nullopt;
-  const ExpectedLag::Value& lag = following_.lag_of(track.id);
-  ScanScore::Expected expected{.velocity_square = track.designed->noise_velocity.squaredNorm() +
-                                                  lag.velocity.squaredNorm()};
-  if (const double speed = truth.velocity.norm(); speed > 0.0) {
-    expected.lag = lag.position.dot(truth.velocity) / speed;
-  }
-  if (track.residual && track.gains.order >= 1 && is_stable(track.gains)) {
-    const double variance = innovation_variance(track.gains, options_.sigma, options_.period);
-    expected.innovation =
-        std::sqrt(lag.prediction.squaredNorm() + 0.5 * std::numbers::pi * variance);
-  }
-  return expected;
 }
 
 void RunMetrics::count(ObjectTally& tally, const ScanScore& score) const {
@@ -229,21 +219,18 @@ void RunMetrics::count(ObjectTally& tally, const ScanScore& score) const {
   watch_settling(tally, score.error.norm(), score.time);
   tally.squared_velocity_error += score.squared_velocity_error;
   tally.lag += score.lag.value_or(0.0);
-  tally.predicted_square += score.predicted_square;
   if (score.expected) {
-    tally.predicted_velocity_square += score.expected->velocity_square;
-    tally.predicted_lag += score.expected->lag.value_or(0.0);
-    ++tally.expected_lags;
-    if (score.expected->innovation) {
-      tally.predicted_innovation += *score.expected->innovation;
-      ++tally.predicted_innovations;
-    }
+    tally.predicted_square += score.expected->position_square();
+    tally.predicted_velocity_square += score.expected->velocity_square();
+    if (score.lag) tally.predicted_lag -= score.expected->position.dot(score.direction);
+    ++tally.expected_scans;
+    tally.nees_memory += 2.0 * score.expected->memory.value_or(kNothing) - 1.0;
   }
-  if (score.floor_square) {
-    for (std::size_t i = 0; i < score.floor_square->size(); ++i) {
-      tally.floor_square[i] += (*score.floor_square)[i];
-    }
-    ++tally.floor_count;
+  if (score.expected_nis) {
+    tally.predicted_innovation += score.expected->innovation->length;
+    tally.predicted_nis += *score.expected_nis;
+    tally.nis_memory += 2.0 * score.expected->innovation->memory.value_or(kNothing) - 1.0;
+    ++tally.expected_innovations;
   }
   if (score.nees) tally.nees.add(*score.nees);
   if (score.innovation) {
@@ -306,26 +293,36 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
     report.rmse_position_ci95 =
         Interval{std::sqrt(std::max(0.0, square->low)), std::sqrt(square->high)};
   }
-  if (tally.predicted_square > 0.0) {
-    report.predicted_rmse = root_mean(tally.predicted_square, report.tracked);
-  }
-  report.floor_rmse = root_mean(
-      *std::min_element(tally.floor_square.begin(), tally.floor_square.end()), tally.floor_count);
   report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);
   report.bias = tally.error / static_cast<double>(report.tracked);
-  report.predicted_velocity = root_mean(tally.predicted_velocity_square, tally.expected_lags);
-  report.predicted_mai = mean(tally.predicted_innovation, tally.predicted_innovations);
   report.peak_error = tally.peak_error;
   report.lag = tally.lag / static_cast<double>(report.tracked);
-  report.predicted_lag = tally.predicted_lag / static_cast<double>(report.tracked);
+  // What is not known of every scan is not known of their mean.
+  if (tally.expected_scans == report.tracked) {
+    report.predicted_rmse = root_mean(tally.predicted_square, report.tracked);
+    report.predicted_velocity = root_mean(tally.predicted_velocity_square, report.tracked);
+    report.predicted_lag = mean(tally.predicted_lag, report.tracked);
+  }
+  if (tally.expected_innovations == tally.innovations) {
+    report.predicted_mai = mean(tally.predicted_innovation, tally.innovations);
+    report.predicted_nis = mean(tally.predicted_nis, tally.innovations);
+  }
   if (tally.calm_scans >= kCalmScans) report.settling_time = tally.calm_since - tally.first_time;
   if (tally.nees.count() > 0) {
     report.nees = tally.nees.mean();
-    report.nees_bounds95 = chi_square_mean_bounds95(tally.nees.effective_count(), 2.0);
+    const bool is_foreseen =
+        tally.expected_scans == tally.nees.count() && !std::isnan(tally.nees_memory);
+    const double count = is_foreseen ? effective_count(tally.nees.count(), tally.nees_memory)
+                                     : tally.nees.effective_count();
+    report.nees_bounds95 = chi_square_mean_bounds95(count, 2.0);
   }
   report.nis = mean(tally.nis, tally.nis_count);
   if (tally.nis_count > 0) {
-    report.nis_bounds95 = chi_square_mean_bounds95(static_cast<double>(tally.nis_count), 2.0);
+    const bool is_foreseen =
+        tally.expected_innovations == tally.nis_count && !std::isnan(tally.nis_memory);
+    const double memory =
+        is_foreseen ? tally.nis_memory : static_cast<double>(tally.nis_count);
+    report.nis_bounds95 = chi_square_mean_bounds95(effective_count(tally.nis_count, memory), 2.0);
   }
   return report;
 }
@@ -344,7 +341,7 @@ RunReport RunMetrics::report() const {
   total.mot = mot_.result();
 
   double error = 0.0, velocity = 0.0, measurement = 0.0, predicted = 0.0, innovation = 0.0;
-  std::int64_t tracked = 0, detections = 0, innovations = 0;
+  std::int64_t tracked = 0, expected = 0, detections = 0, innovations = 0;
   for (const ObjectInfo& object : objects_) {
     ObjectTally tally = tallies_[static_cast<std::size_t>(object.id)];
     count_doubtful(tally);
@@ -355,6 +352,7 @@ RunReport RunMetrics::report() const {
     }
     velocity += tally.squared_velocity_error;
     predicted += tally.predicted_square;
+    expected += tally.expected_scans;
     measurement += tally.squared_measurement_error;
     detections += tally.detections;
     innovation += tally.innovation;
@@ -362,7 +360,7 @@ RunReport RunMetrics::report() const {
   }
   total.rmse_position = root_mean(error, tracked);
   total.rmse_velocity = root_mean(velocity, tracked);
-  if (predicted > 0.0) total.predicted_rmse = root_mean(predicted, tracked);
+  if (expected == tracked) total.predicted_rmse = root_mean(predicted, tracked);
   total.measurement_rmse = root_mean(measurement, detections);
   total.mai = mean(innovation, innovations);
   return report;

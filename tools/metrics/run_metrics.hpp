@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "tools/metrics/batch_means.hpp"
-#include "tools/metrics/error_floor.hpp"
 #include "tools/metrics/following.hpp"
 #include "tools/metrics/gospa.hpp"
 #include "tools/metrics/mot_score.hpp"
@@ -26,7 +25,6 @@ struct RunMetricsOptions {
   double order = 2.0;                                   // GOSPA's p
   double alpha = 2.0;                                   // GOSPA's alpha
   std::optional<double> match_distance = std::nullopt;  // for MOTA, IDF1, HOTA [m]; c if not given
-  bool with_floor = true;  // also run the filters of ErrorFloor, which cost more than all the rest
 
   GospaOptions gospa() const { return {cutoff.value_or(5.0 * sigma), order, alpha}; }
   double matching() const { return match_distance.value_or(gospa().cutoff); }
@@ -57,9 +55,10 @@ struct ObjectReport {
   std::optional<double> rmse_position;         // √ mean |e|² [m]
   std::optional<Interval> rmse_position_ci95;  // 95 % confidence
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
-  std::optional<double> floor_rmse;            // of the best of FloorFilters in the same scans [m]
+  std::optional<double> best_fixed_gains;      // see Hindsight; for the caller to fill in [m]
+  std::optional<double> smoother;              // the same
   std::optional<double> rmse_velocity;         // [m/s]
-  std::optional<double> predicted_velocity;    // its prediction, of designed gains [m/s]
+  std::optional<double> predicted_velocity;    // its prediction [m/s]
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
   std::optional<double> peak_error;            // max |e| [m]
@@ -68,10 +67,11 @@ struct ObjectReport {
   std::optional<double> settling_time;         // see RunMetrics::kCalmScans; absent: never [s]
   double lifetime = 0.0;                       // from its first scan to its last [s]
   std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
-  std::optional<double> predicted_mai;         // its prediction, of designed gains [m]
+  std::optional<double> predicted_mai;         // its prediction [m]
   std::optional<double> nees;                  // mean of eᵀ P⁻¹ e; 2 if consistent
   std::optional<Interval> nees_bounds95;
   std::optional<double> nis;  // mean of rᵀ S⁻¹ r; 2 if consistent
+  std::optional<double> predicted_nis;  // tr S⁻¹ (S_true + m mᵀ) with the residual's expected m, S_true
   std::optional<Interval> nis_bounds95;
 };
 
@@ -110,8 +110,9 @@ class RunMetrics final : public RunObserver {
   static constexpr int kLost = 3;
 
   /// @param contender  whom to score
+  /// @param theory     of the contender's filters; without it nothing is predicted
   RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions& options,
-             std::size_t contender = 0);
+             std::size_t contender = 0, const std::optional<FilterTheory>& theory = std::nullopt);
 
   void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
 
@@ -136,15 +137,10 @@ class RunMetrics final : public RunObserver {
     double time = 0.0;
     Vec2 error = Vec2::Zero();
     double squared_velocity_error = 0.0;
-    std::optional<double> lag = {};  // where the object moves
-    double predicted_square = 0.0;  // variance and squared lag
-    struct Expected {
-      double velocity_square = 0.0;  // variance and squared lag
-      std::optional<double> lag = {};  // along the motion
-      std::optional<double> innovation = {};
-    };
-    std::optional<Expected> expected = {};
-    std::optional<FloorFilters::Values> floor_square = {};
+    Vec2 direction = Vec2::Zero();   // of the motion
+    std::optional<double> lag = {};  // along it, where the object moves
+    std::optional<ExpectedError::Value> expected = {};
+    std::optional<double> expected_nis = {};
     std::optional<double> nees = {};
     std::optional<double> innovation = {};
     std::optional<double> nis = {};
@@ -168,20 +164,21 @@ class RunMetrics final : public RunObserver {
     Vec2 error = Vec2::Zero();
     double peak_error = 0.0;
     double lag = 0.0;
+    double predicted_square = 0.0;  // variance and squared lag, over the scans in which both are
+    double predicted_velocity_square = 0.0;  // known
     double predicted_lag = 0.0;
-    double predicted_velocity_square = 0.0;
-    std::int64_t expected_lags = 0;
+    std::int64_t expected_scans = 0;
     double predicted_innovation = 0.0;
-    std::int64_t predicted_innovations = 0;
+    double predicted_nis = 0.0;
+    std::int64_t expected_innovations = 0;
+    double nees_memory = 0.0;  // Σ Σ ρ², see ExpectedError::Value; NaN if it is not known
+    double nis_memory = 0.0;
     double first_time = 0.0;  // of its scans
     double last_time = 0.0;
     double calm_since = 0.0;
     int calm_scans = 0;
     double squared_velocity_error = 0.0;
     double squared_measurement_error = 0.0;
-    double predicted_square = 0.0;
-    FloorFilters::Values floor_square{};
-    std::int64_t floor_count = 0;
     double innovation = 0.0;
     std::int64_t innovations = 0;
     BatchMeans nees;
@@ -194,8 +191,6 @@ class RunMetrics final : public RunObserver {
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
   void follow(const TruthState& truth, const TrackEstimate& track, const StepRecord& record);
   ScanScore score_of(const TruthState& truth, const TrackEstimate& track, double time) const;
-  std::optional<ScanScore::Expected> expected_of(const TruthState& truth,
-                                                 const TrackEstimate& track) const;
   void count(ObjectTally& tally, const ScanScore& score) const;
   void count_doubtful(ObjectTally& tally) const;
   void lose(ObjectTally& tally) const;
@@ -208,7 +203,6 @@ class RunMetrics final : public RunObserver {
   std::vector<ObjectTally> tallies_;  // by object
   Following following_;
   std::vector<std::optional<Vec2>> latest_errors_;
-  std::optional<ErrorFloor> floor_;
   SwitchCounter switches_;
   MotScore mot_;
   TotalReport sums_;  // GOSPA and its kin, not yet divided by the number of scans

@@ -34,13 +34,15 @@ Json object_json(const ObjectReport& object) {
   json["detections_missed"] = object.detections_missed;
   json["track_changes"] = object.track_changes;
   json["track_losses"] = object.track_losses;
-  json["rmse_position"] = number(object.rmse_position);
-  json["rmse_position_ci95"] = interval(object.rmse_position_ci95);
-  json["predicted_rmse"] = number(object.predicted_rmse);
-  json["floor_rmse"] = number(object.floor_rmse);
+  json["rmse"] = number(object.rmse_position);
+  json["rmse_ci95"] = interval(object.rmse_position_ci95);
+  json["predicted"] = number(object.predicted_rmse);
+  json["raw"] = number(object.measurement_rmse);
+  json["best_fixed_gains"] = number(object.best_fixed_gains);
+  json["crlb"] = nullptr;
+  json["smoother"] = number(object.smoother);
   json["rmse_velocity"] = number(object.rmse_velocity);
   json["predicted_velocity"] = number(object.predicted_velocity);
-  json["measurement_rmse"] = number(object.measurement_rmse);
   json["bias"] = object.bias ? Json::array({number(object.bias->x()), number(object.bias->y())})
                              : Json(nullptr);
   json["peak_error"] = number(object.peak_error);
@@ -52,6 +54,7 @@ Json object_json(const ObjectReport& object) {
   json["nees"] = number(object.nees);
   json["nees_bounds95"] = interval(object.nees_bounds95);
   json["nis"] = number(object.nis);
+  json["predicted_nis"] = number(object.predicted_nis);
   json["nis_bounds95"] = interval(object.nis_bounds95);
   return json;
 }
@@ -84,10 +87,10 @@ std::string counts_text(const RunCounts& counts) {
 Json total_json(const TotalReport& total) {
   Json json;
   json["scans"] = total.scans;
-  json["rmse_position"] = number(total.rmse_position);
-  json["predicted_rmse"] = number(total.predicted_rmse);
+  json["rmse"] = number(total.rmse_position);
+  json["predicted"] = number(total.predicted_rmse);
   json["rmse_velocity"] = number(total.rmse_velocity);
-  json["measurement_rmse"] = number(total.measurement_rmse);
+  json["raw"] = number(total.measurement_rmse);
   json["mai"] = number(total.mai);
   json["gospa"] = number(total.gospa);
   json["gospa_localisation"] = number(total.gospa_localisation);
@@ -153,21 +156,22 @@ void write_json(const RunReport& report, const std::function<void(std::string_vi
 std::string to_table(const RunReport& report, std::size_t width) {
   const std::vector<TextColumn> columns = {
       {"object", 17},        {"regime", 8},          {"filter and gains", 26},
-      {"RMSE [m]", 8, true}, {"predicted", 9, true}, {"floor", 8, true},
+      {"RMSE [m]", 8, true}, {"predicted", 9, true}, {"best fixed", 10, true},
       {"raw", 8, true},      {"MAI [m]", 8, true},   {"used/missed", 12, true}};
   std::vector<std::vector<std::string>> rows;
   for (const ObjectReport& object : report.objects) {
     rows.push_back({object.name, object.regime,
                     object.gains.empty() ? object.filter : object.filter + " " + object.gains,
                     cell(object.rmse_position), cell(object.predicted_rmse),
-                    cell(object.floor_rmse), cell(object.measurement_rmse), cell(object.mai),
+                    cell(object.best_fixed_gains), cell(object.measurement_rmse), cell(object.mai),
                     fmt::format("{}/{}", object.detections_used, object.detections_missed)});
   }
   const TotalReport& total = report.total;
   const ClearMotResult& clear = total.mot.clear;
   const GospaOptions gospa = report.options.gospa();
   return text_table(columns, rows, {.width = width}) +
-         "predicted: by theory; floor: best Kalman filter; used/missed: detections it had/lacked\n" +
+         "predicted: by theory; best fixed: expected of the best fixed gains in hindsight;\n"
+         "used/missed: scans with and without a detection used\n" +
          fmt::format(
              "\nGOSPA {} m (c {:.4g} m, p {:.4g}, alpha {:.4g}): {:.3g} missed and {:.3g} false "
              "per "

@@ -67,7 +67,9 @@ Json value_cells(const std::vector<std::size_t>& filters, const RowsByFilter& ro
   return values;
 }
 
-std::optional<double> bound_of(const RowsByFilter& rows) { return rows.begin()->second->bound; }
+std::optional<double> bound_of(const RowsByFilter& rows) {
+  return rows.begin()->second->hindsight.best_fixed_gains;
+}
 
 Json named(const Comparison& comparison, const std::vector<std::size_t>& filters) {
   Json names = Json::array();
@@ -145,7 +147,7 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
                     {"mean", mean_text(row, comparison.cells[cell].runs)},
                     {"ci95", range(row.ci95)},
                     {"predicted", number(row.predicted)},
-                    {"bound", number(row.bound)},
+                    {"bound", number(row.hindsight.best_fixed_gains)},
                     {"difference", difference},
                     {"verdict", to_string(row.significance)},
                     {"css", css_of(row.significance)}});

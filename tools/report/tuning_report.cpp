@@ -58,7 +58,7 @@ std::string tuning_report(const Tuning& tuning) {
     Json values = {{"regime", regime.regime},
                    {"acceleration", number(regime.acceleration)},
                    {"tracking_index", number(regime.tracking_index)},
-                   {"bound", regime.bound ? number(*regime.bound) : ""},
+                   {"bound", regime.hindsight.best_fixed_gains ? number(*regime.hindsight.best_fixed_gains) : ""},
                    {"judged", judged_rows(regime)}};
     add_surface(values, tuning, regime);
     regimes.push_back(std::move(values));

@@ -143,8 +143,10 @@ bool KalmanFilter<Order, D>::update(const Vector& z, const Matrix& covariance) {
   const double nis = residual.dot(inverse * residual);
 
   // A residual beyond the limit speaks of an outlier: its error is taken to be as much larger as
-  // it takes for the pull of the limit itself (Huber 1964).
-  const double doubt = std::max(1.0, std::sqrt(nis) / model_.huber);
+  // it takes for the pull of the limit itself (Huber 1964). It speaks of nothing before all
+  // derivatives are known: a target may be much faster than one is taken to be at first sight.
+  const bool is_settled = updates_ > Order;
+  const double doubt = is_settled ? std::max(1.0, std::sqrt(nis) / model_.huber) : 1.0;
   const Matrix r = doubt > 1.0 ? Matrix(doubt * s - predicted) : covariance;
   const Matrix weight = inverse / doubt;
   Eigen::Matrix<double, kStates, D> gain;

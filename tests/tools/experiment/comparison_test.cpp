@@ -36,7 +36,7 @@ const ComparisonRow& row_of(const Comparison& comparison, const std::string& fil
 }
 
 Comparison compared(const Campaign& campaign, int jobs = 1) {
-  return ghtrack::compare(campaign, groups_by_truth(campaign), all_results(campaign, jobs), jobs);
+  return ghtrack::compare(campaign, all_results(campaign, jobs), jobs);
 }
 Comparison compared(const std::string& compare, int jobs = 1) {
   return compared(campaign_of_scene(steady_scene(compare)), jobs);
@@ -57,8 +57,8 @@ TEST(Comparison, NamesTheWinnerThatTheoryNames) {
   const double noise = 0.5 * std::sqrt(2.0 * variance_reduction(Gains::of_gh(0.8, 0.5), 0.1).x);
   EXPECT_NEAR(large.mean, noise, 2.0 * (large.ci95->high - large.ci95->low));
   EXPECT_NEAR(*large.predicted, noise, 0.01);
-  EXPECT_LT(*tiny.bound, tiny.ci95->high);
-  EXPECT_LT(*large.bound, large.ci95->low);
+  EXPECT_LT(*tiny.hindsight.best_fixed_gains, tiny.ci95->high);
+  EXPECT_LT(*large.hindsight.best_fixed_gains, large.ci95->low);
 }
 
 // Derived: the velocity's and the innovation's steady errors, for the large gains.
@@ -145,7 +145,7 @@ TEST(Comparison, MapsTheErrorOverGains) {
   const GainSurface& surface = comparison.cells[0].surfaces.at(0);
   ASSERT_EQ(surface.rmse.size(), surface.g.size() * surface.h.size());
   const double least = *std::min_element(surface.rmse.begin(), surface.rmse.end());
-  const double bound = *row_of(comparison, "tiny", "ball", Metric::kRmsePosition).bound;
+  const double bound = *row_of(comparison, "tiny", "ball", Metric::kRmsePosition).hindsight.best_fixed_gains;
   EXPECT_NEAR(least, bound, 0.1 * bound);
   EXPECT_LT(surface.best.g, 0.1);
   EXPECT_EQ(surface.marks.size(), 3U);

@@ -137,8 +137,10 @@ TEST(KalmanFilter, KeepsItsCovarianceSymmetricAndPositive) {
 TEST(KalmanFilter, ShortensThePullOfAnOutlier) {
   const KalmanModel model{.process_intensity = 1.0, .initial_speed = 3.0, .huber = 1.345};
   KalmanFilter<1, 1> filter(model);
-  filter.update(Scalar(0.0));
-  filter.predict(1.0);
+  for (int i = 0; i < 2; ++i) {
+    filter.update(Scalar(0.0));
+    filter.predict(1.0);
+  }
   const double prior = filter.covariance()(0, 0);
   const double s = filter.innovation_covariance()(0, 0);
   KalmanFilter<1, 1> limit = filter;
@@ -149,6 +151,17 @@ TEST(KalmanFilter, ShortensThePullOfAnOutlier) {
   EXPECT_NEAR(outlier.estimate().velocity[0], limit.estimate().velocity[0], 1e-12);
   const double weight = 1.345 * std::sqrt(s) / 100.0;
   EXPECT_NEAR(outlier.covariance()(0, 0), prior - weight * prior * prior / s, 1e-12);
+}
+
+// Derived: the second measurement tells the velocity of a target that is far faster than one is at
+// first sight: with P = diag(σ², v₀²) and T = 1 the gain on v is v₀² / (2σ² + v₀²), nothing less.
+TEST(KalmanFilter, DoubtsNothingBeforeItKnowsTheVelocity) {
+  const KalmanModel model{.process_intensity = 0.0, .initial_speed = 3.0, .huber = 1.345};
+  KalmanFilter<1, 1> filter(model);
+  filter.update(Scalar(0.0));
+  filter.predict(1.0);
+  filter.update(Scalar(100.0));
+  EXPECT_NEAR(filter.estimate().velocity[0], 100.0 * 9.0 / 11.0, 1e-9);
 }
 
 // Property: a guess with a covariance is a start, too.

@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+
+#include "scenes/schema/reader.hpp"
+#include "tools/experiment/comparison.hpp"
+#include "tools/experiment/engine.hpp"
+
+namespace ghtrack {
+namespace {
+
+/// A body that speeds up for a while, followed by one filter of every kind.
+Comparison compared(const std::string& sensors, const std::string& more = "") {
+  const std::string text = R"(
+name: predicted
+duration: 20
+targets:
+  - {name: a, train: {stock: ideal, speed: 20, drive: [{at: 8, accelerate: 1}, {at: 12, accelerate: 0}]}}
+sensors: )" + sensors + R"(
+tracker: {association: known}
+compare:
+  runs: 40
+  filters:
+    order 0: {order0: {g: 0.9}}
+    g-h: {gh: {g: 0.3, h: 0.05}}
+    g-h from rest: {gh: {g: 0.3, h: 0.05, start_up: none}}
+    g-h two points: {gh: {g: 0.3, h: 0.05, start_up: two-point}}
+    g-h-k: {ghk: {g: 0.5, h: 0.2, k: 0.02}}
+    index: {gh: {design: tracking-index, process_noise: 1}}
+    fading: {ghk: {design: fading-memory, theta: 0.8}}
+    kalman-cv: {kalman-cv: {process_noise: 1}}
+    kalman-ca: {kalman-ca: {process_noise: 0.5}}
+    ekf: {ekf: {}}
+    ukf: {ukf: {}}
+    imm: {imm: {}}
+    models: {multiple-model: {filters: {calm: {gh: {g: 0.1, h: 0.005}}, turn: {ghk: {g: 0.6, h: 0.3, k: 0.05}}}}}
+    huber: {gh: {g: 0.3, h: 0.05, huber: 1.345}}
+    huber kalman: {kalman-cv: {process_noise: 1, huber: 1.345}}
+)" + more;
+  const Campaign campaign{
+      {{std::get<WorldScene>(read_scene_text(text, "predicted.yaml")), "predicted.yaml", ""}}};
+  Results results(campaign);
+  compute(
+      campaign, Shard{}, results, 2, [] {},
+      [&](std::size_t cell, int run, std::vector<double> scores) {
+        results.put(cell, run, std::move(scores));
+      });
+  return compare(campaign, results, 2);
+}
+
+/// Whether what is predicted lies within 2 % of what is measured, or within one and a half of its
+/// interval's half widths: of the hundreds of intervals here some miss.
+void expect_predicted(const Comparison& comparison) {
+  int rows = 0;
+  for (const ComparisonRow& row : comparison.rows) {
+    const bool is_asked = row.metric == Metric::kRmsePosition || row.metric == Metric::kMai ||
+                          row.metric == Metric::kRmseVelocity || row.metric == Metric::kLag;
+    if (!is_asked || !row.object.empty() || row.regime.empty()) continue;
+    const std::string what = comparison.filters[row.filter] + ", " + std::string(info(row.metric).name);
+    ASSERT_TRUE(row.predicted && row.ci95) << what;
+    const double half = 0.75 * (row.ci95->high - row.ci95->low);
+    EXPECT_NEAR(*row.predicted, row.mean, std::max(0.02 * std::abs(row.mean), half)) << what;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 15 * 4);
+}
+
+// Property: of every kind of filter, in matched and mismatched motion, the error, lag and innovation
+// are predicted.
+TEST(Prediction, IsWithinTheIntervalForEveryKindOfFilter) {
+  expect_predicted(compared("[{name: cam, rate: 10, noise: 0.5}]"));
+}
+
+// Property: and with misses, two sensors of different rates, phases and noise, and a bias.
+TEST(Prediction, HoldsWithMissesSeveralSensorsAndBias) {
+  expect_predicted(compared(
+      "[{name: cam, rate: 10, noise: 0.5, detection_probability: 0.8, bias: [0.2, 0.1]}, "
+      "{name: far, rate: 3, phase: 0.037, noise: 2}]"));
+}
+
+// Property: and with heavy tails, with outliers, and with range and bearing.
+TEST(Prediction, HoldsWithHeavyTailsAndRadar) {
+  expect_predicted(compared(
+      "[{name: cam, rate: 10, noise: 0.5, student_dof: 5, outlier_probability: 0.02, "
+      "outlier_scale: 4}]"));
+  expect_predicted(compared(
+      "[{name: radar, rate: 10, site: [0, -200], kind: radar, sigma_range: 1, sigma_bearing_deg: "
+      "0.3}]"));
+}
+
+// Property: errors without a variance have no prediction.
+TEST(Prediction, IsAbsentWhereItCannotBeKnown) {
+  for (const ComparisonRow& row :
+       compared("[{name: cam, rate: 10, noise: 0.5, student_dof: 1.5}]").rows) {
+    EXPECT_FALSE(row.predicted) << info(row.metric).name;
+  }
+}
+
+}  // namespace
+}  // namespace ghtrack

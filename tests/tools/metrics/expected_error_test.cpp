@@ -1,0 +1,120 @@
+#include "tools/metrics/expected_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tracker/filters/gains/analysis.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kPeriod = 0.5;
+constexpr double kSigma = 0.3;
+
+SensorConfig camera() {
+  SensorConfig sensor;
+  sensor.name = "camera";
+  sensor.rate = 1.0 / kPeriod;
+  PositionSensor position;
+  position.noise = kSigma;
+  sensor.model = position;
+  return sensor;
+}
+
+/// At the time t under the acceleration (0, a).
+TruthState accelerating(double t, double a) {
+  TruthState truth;
+  truth.position = {t, 0.5 * a * t * t};
+  truth.velocity = {1.0, a * t};
+  truth.acceleration = {0.0, a};
+  return truth;
+}
+
+/// What is expected of a filter after so many scans, with a detection in each.
+ExpectedError::Value after(const Filter& fresh, int scans, double acceleration,
+                           const SensorConfig& sensor = camera()) {
+  const auto errors = error_parts(sensor).value();
+  std::optional<ExpectedError> error;
+  for (int i = 0; i < scans; ++i) {
+    const TruthState truth = accelerating(kPeriod * i, acceleration);
+    const Detection detection = noiseless_detection(sensor, truth.position).value();
+    const SensedDetection used{sensor, errors, detection};
+    if (error) {
+      error->advance(truth, kPeriod * i, used);
+    } else {
+      error.emplace(fresh, truth, used, 0.0, 1);
+    }
+  }
+  return error->value(accelerating(kPeriod * (scans - 1), acceleration));
+}
+
+Filter gh(double g, double h) {
+  return make_filter(GhConfig{.design = gain_design::Manual<1>{g, h, 0.0}}, kSigma, kPeriod);
+}
+
+// Derived: after a long time the variance reduction factors, and the lags under a lasting
+// acceleration: position (1 − g) a T² / h = 1.25 m, velocity a T (2g − h) / 2h = 2 m/s, prediction
+// a T² / h = 2.5 m.
+TEST(ExpectedError, TendsToTheSteadyState) {
+  const ExpectedError::Value value = after(gh(0.5, 0.2), 400, 2.0);
+  const VarianceReduction noise = variance_reduction(Gains::of_gh(0.5, 0.2), kPeriod);
+  const double variance = kSigma * kSigma;
+  EXPECT_NEAR(value.position_variance, 2.0 * noise.x * variance, 1e-9);
+  EXPECT_NEAR(value.velocity_variance, 2.0 * noise.dx * variance, 1e-9);
+  EXPECT_NEAR(value.position.y(), -1.25, 1e-9);
+  EXPECT_NEAR(value.velocity.y(), -2.0, 1e-9);
+  ASSERT_TRUE(value.innovation);
+  EXPECT_NEAR(value.innovation->mean.y(), 2.5, 1e-9);
+  EXPECT_NEAR(value.innovation->covariance(0, 0), variance * (1.0 + noise.prediction), 1e-9);
+}
+
+// Derived: growing memory of order 1 after n measurements: variance 2 (2n − 1) / (n (n + 1)) σ² per
+// axis (Zarchan & Musoff 2000), exact for constant velocity.
+TEST(ExpectedError, IsExactWhileStarting) {
+  const ExpectedError::Value value = after(gh(0.02, 0.0002), 10, 0.0);
+  EXPECT_NEAR(value.position_variance, 2.0 * 2.0 * 19.0 / 110.0 * kSigma * kSigma, 1e-9);
+  EXPECT_NEAR(value.position.norm(), 0.0, 1e-9);
+}
+
+// Derived: a bias is passed on whole; errors with variance 1 + p (s² − 1) let through as much more.
+TEST(ExpectedError, CountsBiasAndOutliers) {
+  SensorConfig sensor = camera();
+  sensor.outlier_probability = 0.1;
+  sensor.outlier_scale = 3.0;
+  std::get<PositionSensor>(sensor.model).bias = {0.4, -0.1};
+  const ExpectedError::Value value = after(gh(0.5, 0.2), 400, 0.0, sensor);
+  const double noise = variance_reduction(Gains::of_gh(0.5, 0.2), kPeriod).x;
+  EXPECT_NEAR(value.position_variance, 2.0 * noise * 1.8 * kSigma * kSigma, 1e-9);
+  EXPECT_NEAR(value.position.x(), 0.4, 1e-9);
+}
+
+// Derived: Student's t has variance ν / (ν − 2), and none with two degrees of freedom or fewer.
+TEST(ErrorParts, HaveTheVarianceOfTheSensor) {
+  SensorConfig sensor = camera();
+  sensor.student_dof = 5.0;
+  double variance = 0.0, probability = 0.0;
+  const std::vector<ErrorPart> parts = error_parts(sensor).value();
+  for (const ErrorPart& part : parts) {
+    variance += part.probability * part.variance_factor;
+    probability += part.probability;
+  }
+  EXPECT_NEAR(probability, 1.0, 1e-12);
+  EXPECT_NEAR(variance, 5.0 / 3.0, 1e-12);
+  sensor.student_dof = 2.0;
+  EXPECT_FALSE(error_parts(sensor));
+}
+
+// Derived: Rayleigh's mean √(π/2) without a mean, the mean alone without noise, one axis |N| √(2/π).
+TEST(ExpectedLength, IsThatOfRayleigh) {
+  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+  EXPECT_NEAR(expected_length(Vec2::Zero(), unit), std::sqrt(0.5 * std::numbers::pi), 2e-4);
+  EXPECT_NEAR(expected_length({3.0, 4.0}, Eigen::Matrix2d::Zero()), 5.0, 1e-3);
+  Eigen::Matrix2d line = Eigen::Matrix2d::Zero();
+  line(1, 1) = 4.0;
+  EXPECT_NEAR(expected_length(Vec2::Zero(), line), 2.0 * std::sqrt(2.0 / std::numbers::pi), 1e-3);
+}
+
+}  // namespace
+}  // namespace ghtrack

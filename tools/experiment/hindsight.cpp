@@ -1,0 +1,169 @@
+#include "tools/experiment/hindsight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "tools/experiment/gain_search.hpp"
+#include "tools/metrics/expected_error.hpp"
+#include "tracker/filters/axis_covariance.hpp"
+#include "tracker/filters/gains/rules.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kNoValue = std::numeric_limits<double>::infinity();
+constexpr double kDiffuse = 100.0;  // a start's uncertainty, in sigmas per period
+constexpr std::size_t kMostSmoothed = 20'000;  // scans
+
+/// Along tracking indices from a target that hardly manoeuvres to one that does nothing else.
+FoundNumber least_over_indices(const std::function<double(double)>& cost) {
+  return least_cost_of_number(1e-6, 1e4, 16, 6, cost);
+}
+
+/// What an evaluation goes through: objects and what their sensors' errors are.
+class Judge {
+ public:
+  Judge(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
+        const RunMetricsOptions& scoring, const std::function<void()>& on_step)
+      : objects_(objects), sensors_(sensors), scoring_(scoring), on_step_(on_step) {
+    for (const SensorConfig& sensor : sensors) {
+      const auto* position = std::get_if<PositionSensor>(&sensor.model);
+      const auto parts = error_parts(sensor);
+      errors_.push_back(parts.value_or(std::vector<ErrorPart>{}));
+      has_variance_ = has_variance_ && parts;
+      is_plain_ = is_plain_ && position != nullptr && position->bias.isZero() && !sensor.student_dof &&
+                  sensor.outlier_probability == 0.0;
+    }
+  }
+
+  bool has_variance() const { return has_variance_; }
+
+  /// The expected RMSE of a filter that has not started yet.
+  double expected(const GainFilter<2>& filter) const {
+    on_step_();
+    Mean squares;
+    for (const LabelledObject* object : objects_) {
+      if (is_plain_) {
+        squares += expected_errors(filter, *object).position;
+      } else {
+        squares += expected_errors(filter, *object, sensors_, errors_).position;
+      }
+    }
+    return squares.root().value_or(kNoValue);
+  }
+
+  /// The gains of a search as a filter of a scene has them.
+  GainFilter<2> with(const Gains& gains) const {
+    GainSchedule schedule;
+    schedule.steady = gains;
+    schedule.interval = scoring_.period;
+    schedule.irregular_time = IrregularTime::kGainsFromCovariance;
+    ErrorModel errors;
+    errors.sigma = scoring_.sigma;
+    return {schedule, errors};
+  }
+
+  /// Kalata's gains in the steady state, and Kalman's on the way there.
+  template <int Order>
+  GainFilter<2> kalman_like(double index) const {
+    GainFilterConfig<Order> config;
+    config.design = gain_design::TrackingIndex<Order>{.index = index};
+    config.schedule = GainSource::kCovariance;
+    config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
+    config.initial_acceleration = config.initial_speed / scoring_.period;
+    return std::get<GainFilter<2>>(make_filter(config, scoring_.sigma, scoring_.period));
+  }
+
+  double raw() const {
+    Mean squares;
+    for (const LabelledObject* object : objects_) {
+      for (const ObjectScan& scan : object->scans) {
+        if (!scan.detection) continue;
+        squares.add((scan.detection->position - scan.truth.position).squaredNorm());
+      }
+    }
+    return squares.root().value_or(kNoValue);
+  }
+
+  /// RMSE of a smoother for motion of this tracking index; of white noise in the acceleration or in
+  /// its derivative.
+  template <int Order>
+  double smoothed_error(double index) const {
+    on_step_();
+    KalmanConfig<Order> config;
+    process::PiecewiseConstant noise;
+    noise.process_noise = intensity_of_index(ProcessModel::kPiecewiseConstant, index,
+                                             scoring_.sigma, scoring_.period);
+    config.model = noise;
+    config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
+    config.initial_acceleration = config.initial_speed / scoring_.period;
+    Mean squares;
+    std::size_t scans = 0;
+    for (const LabelledObject* object : objects_) {
+      squares += smoothed_errors(config, scoring_, *object).position;
+      if ((scans += object->scans.size()) > kMostSmoothed) break;
+    }
+    return squares.root().value_or(kNoValue);
+  }
+
+ private:
+  const ObjectsOfRuns& objects_;
+  std::span<const SensorConfig> sensors_;
+  const RunMetricsOptions& scoring_;
+  const std::function<void()>& on_step_;
+  std::vector<std::vector<ErrorPart>> errors_;
+  bool is_plain_ = true;
+  bool has_variance_ = true;
+};
+
+/// The best fixed gains: along the curve of each order first, then off it.
+void find_best_gains(const Judge& judge, Hindsight& found) {
+  double least = kNoValue;
+  const auto keep = [&](const Gains& gains, double cost) {
+    if (!(cost < least)) return;
+    least = cost;
+    found.best = gains;
+  };
+  for (const int order : {0, 1, 2}) {
+    const FoundNumber on = least_over_indices([&](double index) {
+      return judge.expected(judge.with(tracking_index_gains(order, index)));
+    });
+    const Gains start = tracking_index_gains(order, on.at);
+    keep(start, on.cost);
+    if (order == 0) continue;
+    const FoundGains off = least_cost_near(
+        start, [&](const Gains& gains) { return judge.expected(judge.with(gains)); });
+    keep(off.gains, off.cost);
+  }
+  const FoundNumber cv = least_over_indices(
+      [&](double index) { return judge.expected(judge.kalman_like<1>(index)); });
+  keep(tracking_index_gains(1, cv.at), cv.cost);
+  const FoundNumber ca = least_over_indices(
+      [&](double index) { return judge.expected(judge.kalman_like<2>(index)); });
+  keep(tracking_index_gains(2, ca.at), ca.cost);
+  if (std::isfinite(least)) found.best_fixed_gains = least;
+}
+
+}  // namespace
+
+Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
+                       const RunMetricsOptions& scoring, const std::function<void()>& on_step) {
+  const Judge judge(objects, sensors, scoring, on_step);
+  Hindsight found;
+  if (const double raw = judge.raw(); std::isfinite(raw)) found.raw = raw;
+  if (!found.raw) return found;
+  if (judge.has_variance()) find_best_gains(judge, found);
+  constexpr int kIndices = 7;
+  constexpr int kSections = 2;
+  const double least = std::min(
+      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<1>(at); })
+          .cost,
+      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<2>(at); })
+          .cost);
+  if (std::isfinite(least)) found.smoother = least;
+  return found;
+}
+
+}  // namespace ghtrack

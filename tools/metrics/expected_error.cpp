@@ -1,0 +1,264 @@
+#include "tools/metrics/expected_error.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "sim/random.hpp"
+
+namespace ghtrack {
+namespace {
+
+constexpr double kSmall = 0.1;  // of a sigma: so far beside the prediction no limit is near
+constexpr int kProbed = 5;      // the update at which a filter is asked whether it has a limit
+constexpr std::size_t kShadows = 16;
+
+using Vector6 = ExpectedError::Vector6;
+using Matrix6 = ExpectedError::Matrix6;
+using Gain = ExpectedError::Gain;
+
+Vector6 state_of(const Filter& filter) {
+  const Kinematics<2>& state = estimate(filter);
+  Vector6 all;
+  all << state.position, state.velocity, state.acceleration;
+  return all;
+}
+
+/// F P Fᵀ of motion under constant acceleration: what a filter does not carry has no covariance.
+void extrapolate(Matrix6& p, double dt) {
+  p.topRows<2>() += dt * p.middleRows<2>(2) + (0.5 * dt * dt) * p.bottomRows<2>();
+  p.middleRows<2>(2) += dt * p.bottomRows<2>();
+  p.leftCols<2>() += dt * p.middleCols<2>(2) + (0.5 * dt * dt) * p.rightCols<2>();
+  p.middleCols<2>(2) += dt * p.rightCols<2>();
+}
+
+/// (I − K H) P (I − K H)ᵀ + K R Kᵀ.
+void correct(Matrix6& p, const Gain& gain, const Eigen::Matrix2d& r) {
+  const Gain cross = p.leftCols<2>();
+  const Eigen::Matrix2d s = cross.topRows<2>() + r;
+  p -= gain * cross.transpose();
+  p -= cross * gain.transpose();
+  p += (gain * s) * gain.transpose();
+}
+
+double mean_factor(std::span<const ErrorPart> errors) {
+  double sum = 0.0;
+  for (const ErrorPart& part : errors) sum += part.probability * part.variance_factor;
+  return sum;
+}
+
+/// What the sensor would measure on average at a place, with the accuracy of the detection.
+std::optional<Detection> shown(const SensedDetection& used, const Vec2& place) {
+  std::optional<Detection> detection = noiseless_detection(used.sensor, place);
+  if (detection) detection->covariance = used.detection.covariance;
+  return detection;
+}
+
+/// A detection of the sensor with noise of its own.
+std::optional<Detection> noisy(const SensedDetection& used, const Vec2& place, Stream& stream) {
+  double ticket = stream.uniform();
+  double factor = used.errors.back().variance_factor;
+  for (const ErrorPart& part : used.errors) {
+    if (ticket < part.probability) {
+      factor = part.variance_factor;
+      break;
+    }
+    ticket -= part.probability;
+  }
+  Vec2 error;
+  error.x() = stream.normal();
+  error.y() = stream.normal();
+  return std::visit(
+      [&](const auto& model) {
+        return model.measure(place, used.sensor.site, std::sqrt(factor) * error);
+      },
+      used.sensor.model);
+}
+
+/// Whether gains depend on times and accuracies alone, but for a limit.
+bool has_own_gains(const MotionFilter& filter) {
+  return std::holds_alternative<PolynomialMotion>(filter.motion());
+}
+bool has_own_gains(const MultipleModelFilter&) { return false; }
+bool has_own_gains(const ImmFilter&) { return false; }
+bool has_own_gains(const auto&) { return true; }
+
+/// As a Stream's step: so many numbers apart for each shadow.
+std::uint64_t step_of(int updates, std::size_t shadow) {
+  return static_cast<std::uint64_t>(updates) * kShadows + shadow;
+}
+
+}  // namespace
+
+ExpectedError::ExpectedError(const Filter& fresh, const TruthState& truth,
+                             const SensedDetection& first, double time, std::uint64_t key)
+    : time_(time),
+      filter_(fresh),
+      is_linear_(std::visit([](const auto& f) { return has_own_gains(f); }, fresh)),
+      shadows_(kShadows, fresh),
+      key_(key) {
+  const std::optional<Detection> mean = shown(first, truth.position);
+  is_known_ = mean && !first.errors.empty();
+  if (!is_known_) return;
+  start(filter_, mean->position, mean->covariance);
+  covariance_.topLeftCorner<2, 2>() = mean_factor(first.errors) * first.detection.covariance;
+  echoes_(0, 0) = covariance_(0, 0);
+  for (std::size_t i = 0; i < shadows_.size(); ++i) {
+    Stream stream(0, Purpose::kResampling, key_, step_of(0, i));
+    const Detection detection = noisy(first, truth.position, stream).value_or(*mean);
+    start(shadows_[i], detection.position, detection.covariance);
+  }
+}
+
+void ExpectedError::advance(const TruthState& truth, double time,
+                            const std::optional<SensedDetection>& used) {
+  if (!is_known_) return;
+  if (time > time_) {
+    const double dt = time - time_;
+    predict(filter_, dt);
+    for (Matrix6* p : {&covariance_, &echoes_, &residual_echoes_}) extrapolate(*p, dt);
+    for (Filter& shadow : shadows_) predict(shadow, dt);
+  }
+  time_ = time;
+  innovation_.reset();
+  if (!used) {
+    coast(filter_);
+    for (Filter& shadow : shadows_) coast(shadow);
+  } else {
+    if (is_linear_) update(truth, *used);
+    if (!is_known_) return;
+    if (!shadows_.empty()) update_shadows(truth, *used);
+    ++updates_;
+  }
+  if (const double variance = covariance_(0, 0); is_linear_ && variance > 0.0) {
+    const Vector6 u = covariance_.col(0) / std::sqrt(variance);
+    echoes_ += u * u.transpose();
+  }
+}
+
+/// The gain is how the answer changes with the measurement; one that is expected changes nothing.
+void ExpectedError::update(const TruthState& truth, const SensedDetection& used) {
+  const std::optional<Detection> mean = shown(used, truth.position);
+  is_known_ = mean && !used.errors.empty();
+  if (!is_known_) return;
+  const Vec2 predicted = estimate(filter_).position;
+  const Eigen::Matrix2d& told = used.detection.covariance;
+  const double step = kSmall * std::sqrt(told.trace());
+  const auto answer_to = [&](const Detection& detection) -> Vector6 {
+    Filter moved = filter_;
+    ghtrack::update(moved, detection);
+    return state_of(moved) - state_of(filter_);
+  };
+  const auto beside = [&](const Vec2& offset) {
+    return Detection{.position = predicted + offset, .covariance = told, .label = {}};
+  };
+  Gain gain = Gain::Zero();
+  if (!used.detection.measured && told(0, 1) == 0.0) {  // the axes have nothing to do with another
+    const Vector6 both = answer_to(beside({step, step})) / step;
+    for (int row = 0; row < 6; ++row) gain(row, row % 2) = both[row];
+  } else if (!used.detection.measured) {
+    gain << answer_to(beside({step, 0.0})) / step, answer_to(beside({0.0, step})) / step;
+  } else {
+    const auto here = shown(used, predicted);
+    const auto right = shown(used, predicted + Vec2(step, 0.0));
+    const auto above = shown(used, predicted + Vec2(0.0, step));
+    is_known_ = here && right && above;
+    if (!is_known_) return;
+    const Vector6 still = answer_to(*here);  // no zero where the sensor has a bias
+    gain << (answer_to(*right) - still) / step, (answer_to(*above) - still) / step;
+  }
+  if (updates_ == kProbed) {
+    const double far = step / (kSmall * kSmall * kSmall);
+    is_linear_ = answer_to(beside({far, 0.0}))[0] > 0.5 * far * gain(0, 0);
+    if (is_linear_) shadows_.clear();
+  }
+
+  const Eigen::Matrix2d position = covariance_.topLeftCorner<2, 2>();
+  const Eigen::Matrix2d noise = mean_factor(used.errors) * told;
+  const Eigen::Matrix2d s = position + noise;
+  const Vec2 residual = mean->position - predicted;
+  double length = 0.0;
+  for (const ErrorPart& part : used.errors) {
+    length += part.probability * expected_length(residual, position + part.variance_factor * told);
+  }
+  innovation_ = {.mean = residual,
+                 .covariance = s,
+                 .length = length,
+                 .memory = 1.0 + residual_echoes_(0, 0) / s(0, 0)};
+  const Vector6 left = (covariance_.leftCols<2>() - gain * s).col(0) / std::sqrt(s(0, 0));
+  ghtrack::update(filter_, *mean);
+  correct(covariance_, gain, noise);
+  correct(echoes_, gain, Eigen::Matrix2d::Zero());
+  correct(residual_echoes_, gain, Eigen::Matrix2d::Zero());
+  residual_echoes_ += left * left.transpose();
+}
+
+void ExpectedError::update_shadows(const TruthState& truth, const SensedDetection& used) {
+  Value::Innovation seen;
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < shadows_.size(); ++i) {
+    Stream stream(0, Purpose::kResampling, key_, step_of(updates_, i));
+    const std::optional<Detection> detection = noisy(used, truth.position, stream);
+    is_known_ = detection && !used.errors.empty();
+    if (!is_known_) return;
+    const Vec2 residual = detection->position - estimate(shadows_[i]).position;
+    constexpr double kShare = 1.0 / kShadows;
+    seen.mean += kShare * residual;
+    seen.length += kShare * residual.norm();
+    squares += kShare * residual * residual.transpose();
+    ghtrack::update(shadows_[i], *detection);
+  }
+  seen.covariance = squares - seen.mean * seen.mean.transpose();
+  if (!is_linear_) innovation_ = seen;
+}
+
+ExpectedError::Value ExpectedError::value(const TruthState& truth) const {
+  if (!is_linear_) return value_of_shadows(truth);
+  const Kinematics<2>& mean = estimate(filter_);
+  const double variance = covariance_(0, 0);
+  return {.position = mean.position - truth.position,
+          .position_variance = covariance_.topLeftCorner<2, 2>().trace(),
+          .velocity = mean.velocity - truth.velocity,
+          .velocity_variance = covariance_.block<2, 2>(2, 2).trace(),
+          .innovation = innovation_,
+          .memory = variance > 0.0 ? std::max(1.0, echoes_(0, 0) / variance) : 1.0};
+}
+
+ExpectedError::Value ExpectedError::value_of_shadows(const TruthState& truth) const {
+  constexpr double kShare = 1.0 / kShadows;
+  Value value{.innovation = innovation_};
+  for (const Filter& shadow : shadows_) {
+    const Vec2 position = estimate(shadow).position - truth.position;
+    const Vec2 velocity = estimate(shadow).velocity - truth.velocity;
+    value.position += kShare * position;
+    value.velocity += kShare * velocity;
+    value.position_variance += kShare * position.squaredNorm();
+    value.velocity_variance += kShare * velocity.squaredNorm();
+  }
+  value.position_variance -= value.position.squaredNorm();
+  value.velocity_variance -= value.velocity.squaredNorm();
+  return value;
+}
+
+double expected_length(const Vec2& mean, const Eigen::Matrix2d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
+  const Eigen::Array2d variance = axes.eigenvalues().cwiseMax(0.0);
+  const Eigen::Array2d squared = (axes.eigenvectors().transpose() * mean).cwiseAbs2();
+  const double scale = squared.sum() + variance.sum();
+  if (!(scale > 0.0)) return 0.0;
+  // With t = e^u / scale the integrand falls as e^(-|u| / 2): trapezoids in u converge quickly.
+  constexpr double kStep = 1.0;
+  constexpr double kFarthest = 18.0;
+  double sum = 0.0;
+  for (double u = -kFarthest; u <= kFarthest; u += kStep) {
+    const double t = std::exp(u) / scale;
+    const Eigen::Array2d widened = 1.0 + 2.0 * t * variance;
+    const double kept = std::exp(-(t * squared / widened).sum()) / std::sqrt(widened.prod());
+    sum += (1.0 - kept) / std::sqrt(t);
+  }
+  return sum * kStep / (2.0 * std::sqrt(std::numbers::pi));
+}
+
+}  // namespace ghtrack
