@@ -146,7 +146,8 @@ void Laboratory::run(std::string_view setting) {
 
 std::string Laboratory::metrics(std::size_t contender) const {
   ReplayedTruth truth(truth_);
-  RunMetrics metrics(truth_->objects, scoring_for(traits_of(scene_.sensors)));
+  RunMetrics metrics(truth_->objects, scoring_for(traits_of(scene_.sensors)), 0,
+                     FilterTheory{contenders_.at(contender).tracker.design(), scene_.sensors});
   const std::vector<RunCounts> counts =
       ghtrack::run(scene_, truth, {&contenders_.at(contender), 1}, {&metrics});
   RunReport report = metrics.report();

@@ -129,8 +129,8 @@
   }
 
   const columns = [
-    ["error (RMSE) [m]", ["rmse", "rmse_position"]], ["predicted", ["predicted", "predicted_rmse"]],
-    ["raw", ["raw", "measurement_rmse"]], ["best fixed gains", ["best_fixed_gains", "floor_rmse"]],
+    ["error (RMSE) [m]", ["rmse"]], ["predicted", ["predicted"]],
+    ["raw", ["raw"]], ["best fixed gains", ["best_fixed_gains"]],
     ["bound (CRLB)", ["crlb"]], ["mean |residual|", ["mai"]], ["used", ["detections_used"]], ["missed", ["detections_missed"]],
   ];
   const value = (from, keys) => keys.map((key) => from[key]).find((v) => v !== undefined && v !== null);
@@ -182,7 +182,7 @@
     }));
     table.replaceChildren(head, body);
     byId("lab-totals").textContent = reports.map(({ total }, which) =>
-      `${sideNames()[which] ? sideNames()[which] + ": " : ""}RMSE ${lab.short(value(total, ["rmse", "rmse_position"]))} m, ` +
+      `${sideNames()[which] ? sideNames()[which] + ": " : ""}RMSE ${lab.short(value(total, ["rmse"]))} m, ` +
       `GOSPA ${lab.short(total.gospa)} m, ` +
       `MOTA ${lab.short(value(total, ["mota"]))}, IDF1 ${lab.short(value(total, ["idf1"]))}, ` +
       `${total.id_switches ?? 0} switches of identity`).join(" · ");
