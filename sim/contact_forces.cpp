@@ -6,8 +6,10 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kSweepsPerTouch = 30;  // at most; a column of n needs about n²
-constexpr std::size_t kMostSweeps = 1000;
+// At most: a column of n needs about n² sweeps, a light body between heavy ones as many as the ratio
+// of their masses.
+constexpr std::size_t kSweepsPerTouch = 400;
+constexpr std::size_t kMostSweeps = 2000;
 constexpr double kExact = 1e-11;  // of the largest rate
 
 /// One touch at work on its bodies.

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kRestHeight = 5e-6;  // lower bounces are not worth it, nor under large forces [m]
 constexpr double kSlipDecay = 0.02;   // time in which the last slip of a rolling body dies out [s]
-constexpr double kLeaving = 1e-9;     // faster than this a body leaves its support [m/s]
+constexpr double kLeaving = 1e-9;     // faster than this a body leaves or hits its support [m/s]
 constexpr double kAtRest = 1e-7;      // slower than this, and held, it rests [m/s]
 constexpr double kSameNormal = 1e-9;  // 1 − cosine between normals that are one
 
@@ -154,7 +154,7 @@ void leave_supports(FlightState& state, const FlightRate& free, const RoundBody&
                     const std::vector<Surface>& surfaces) {
   const auto left = [&](int index) {
     const Contact contact = surface_at(surfaces, index).contact(state.position);
-    return state.velocity.dot(contact.normal) > kLeaving;
+    return std::abs(state.velocity.dot(contact.normal)) > kLeaving;
   };
   const auto draws_away = [&](int index) {
     const Contact contact = surface_at(surfaces, index).contact(state.position);
