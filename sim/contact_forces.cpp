@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ghtrack {
 namespace {
@@ -10,6 +11,7 @@ namespace {
 // of their masses.
 constexpr std::size_t kSweepsPerTouch = 400;
 constexpr std::size_t kMostSweeps = 2000;
+constexpr std::size_t kPatience = 100;
 constexpr double kExact = 1e-11;  // of the largest rate
 
 /// One touch at work on its bodies.
@@ -91,12 +93,16 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
   }
   // Up and down in turn: what leans on what is not known.
   const std::size_t most = std::min(kSweepsPerTouch * (touches.size() + 1), kMostSweeps);
+  double earlier = std::numeric_limits<double>::infinity();  // change, kPatience sweeps ago
   for (std::size_t sweep = 0; sweep < most; ++sweep) {
     double change = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       change = std::max(change, rows[sweep % 2 == 0 ? i : rows.size() - 1 - i].improve());
     }
     if (change <= kExact * largest) break;
+    if (sweep % kPatience != kPatience - 1) continue;
+    if (change > 0.5 * earlier) break;  // friction has no answer, or none that it converges to
+    earlier = change;
   }
 }
 
