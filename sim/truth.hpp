@@ -43,6 +43,7 @@ struct BodyPose {
   ObjectId id = 0;
   Vec2 position = Vec2::Zero();  // [m]
   double angle = 0.0;            // [rad], counter-clockwise
+  double spin = 0.0;             // [rad/s]
 };
 
 /// The state of the world at one instant. Objects that have not appeared yet are absent.

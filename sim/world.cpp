@@ -270,7 +270,7 @@ TruthSnapshot World::Scenery::snapshot(const States& at, double time) const {
     for (int part = 0; part < movers[i].bodies(); ++part) {
       const RigidBody body = movers[i].body(at[i], part);
       const ObjectId owner = first + (movers[i].objects() > 1 ? part : 0);
-      truth.bodies.push_back({owner, body.position, body.angle});
+      truth.bodies.push_back({owner, body.position, body.angle, body.spin});
     }
   }
   return truth;

@@ -249,8 +249,8 @@ TEST(Contact, MovesOutWhoAppearsInsideSomething) {
 }
 
 // Property: without wind and motors the energy of balls between walls, ramps, valleys and each other
-// never grows, nobody sinks into anything by a tenth of a millimetre, and no impact is passed over. The program energy_worlds
-// tries as many as one likes.
+// never grows, nobody sinks into anything by a tenth of a millimetre, and no impact is passed over.
+// The program energy_worlds tries as many as one likes.
 TEST(Contact, NeverGainsEnergy) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const EnergyRun run = run_energy_world(seed);

@@ -106,17 +106,12 @@ EnergyRun run_energy_world(std::uint64_t seed) {
   World world(config, seed);
   EnergyRun result;
   double least = 0.0;
-  for (int i = 1; i <= 120; ++i) {
-    // Spins are differences of angles.
-    constexpr double kHalf = 1e-6;  // [s]
-    const TruthSnapshot before = world.sample(0.05 * i - kHalf);
+  for (int i = 0; i <= 120; ++i) {
     const TruthSnapshot truth = world.sample(0.05 * i);
-    const TruthSnapshot after = world.sample(0.05 * i + kHalf);
     double energy = 0.0;
     for (std::size_t k = 0; k < truth.objects.size(); ++k) {
       const auto& ball = std::get<ThrownBall>(config.targets[k].motion);
-      const double spin = (after.bodies[k].angle - before.bodies[k].angle) / (2.0 * kHalf);
-      const double rim = spin * ball.radius;
+      const double rim = truth.bodies[k].spin * ball.radius;
       const TruthState& state = truth.objects[k];
       energy += ball.mass * (kStandardGravity * (state.position.y() - kDepth) +
                              0.5 * state.velocity.squaredNorm() + 0.5 * ball.inertia * rim * rim);
@@ -131,7 +126,7 @@ EnergyRun run_energy_world(std::uint64_t seed) {
             apart - ball.radius - std::get<ThrownBall>(config.targets[j].motion).radius);
       }
     }
-    if (i == 1) result.begun = least = energy;
+    if (i == 0) result.begun = least = energy;
     result.most_gained = std::max(result.most_gained, energy - least);
     least = std::min(least, energy);
   }
