@@ -77,7 +77,7 @@ fs::path video(const TemporaryFolder& folder, const std::string& scene, const st
   return folder.path() / name;
 }
 
-// Derived: codec and number of frames of every format: 0.4 s at 30 Hz.
+// Derived: codec and number of frames of every format: 0.4 s at 30 Hz, a GIF's at 15.
 TEST(Video, ComesInEveryFormat) {
   const TemporaryFolder folder;
   const std::vector<std::pair<std::string, std::string>> formats = {{"x.mp4", "h264"},
@@ -89,7 +89,7 @@ TEST(Video, ComesInEveryFormat) {
     const auto stream =
         first_stream(video(folder, "balloons.yaml", name, "--to 0.4 --size 640x360"));
     EXPECT_EQ(stream.at("codec_name"), codec);
-    EXPECT_EQ(stream.at("nb_read_frames"), "12") << name;
+    EXPECT_EQ(stream.at("nb_read_frames"), codec == "gif" ? "6" : "12") << name;
   }
   const std::string mp4 = contents(folder.path() / "x.mp4");
   EXPECT_LT(mp4.find("moov"), mp4.find("mdat")) << "a browser wants the index first";
@@ -117,6 +117,46 @@ TEST(Video, IsAFolderOfPicturesIfItsNameEndsWithASlash) {
   EXPECT_THAT(names_in(folder.path() / "pictures"),
               ::testing::ElementsAre("frame_000000.png", "frame_000001.png", "frame_000002.png"));
   EXPECT_THAT(names_in(folder.path()), ::testing::ElementsAre("pictures"));
+}
+
+// Derived: a GIF is at most 640 pixels wide and has 15 frames a second, unless asked for otherwise.
+TEST(Video, IsSmallAsAGif) {
+  const TemporaryFolder folder;
+  const auto stream = first_stream(video(folder, "balloons.yaml", "x.gif", "--to 0.4"));
+  EXPECT_EQ(stream.at("width"), 640);
+  EXPECT_EQ(stream.at("height"), 360);
+  const auto large =
+      first_stream(video(folder, "balloons.yaml", "y.gif", "--to 0.4 --size 800x450 --fps 20"));
+  EXPECT_EQ(large.at("width"), 800);
+  EXPECT_EQ(large.at("nb_read_frames"), "8");
+}
+
+// Property: a video that begins later shows what the whole one shows then, trails and scores
+// included: to the last pixel.
+TEST(Video, ShowsFromSomeTimeOnWhatTheWholeVideoShows) {
+  const TemporaryFolder folder;
+  const std::string options = " --size 640x360 --fps 10 --show insets --trail whole";
+  video(folder, "three_regimes.yaml", "whole/", "--to 3" + options);
+  video(folder, "three_regimes.yaml", "late/", "--from 2.5 --to 3" + options);
+  for (int i = 0; i < 5; ++i) {
+    const auto name = [](int number) { return "frame_00000" + std::to_string(number) + ".png"; };
+    const auto whole_name = "frame_0000" + std::to_string(25 + i) + ".png";
+    EXPECT_TRUE(contents(folder.path() / "late" / name(i)) ==
+                contents(folder.path() / "whole" / whole_name))
+        << i;
+  }
+}
+
+// Property: a theme and the reach of trails are chosen by option, and only those there are.
+TEST(Video, ComesInThemes) {
+  const TemporaryFolder folder;
+  const std::string options = "--to 0.1 --size 320x180";
+  const auto dark = video(folder, "balloons.yaml", "dark.png", options);
+  const auto light = video(folder, "balloons.yaml", "light.png", options + " --theme light");
+  EXPECT_FALSE(contents(dark) == contents(light));
+  const std::string scene = "ghtrack video '" + scene_file("balloons.yaml").string() + "' ";
+  EXPECT_EQ(shell(scene + "--theme pink", folder.path()).exit_code, 2);
+  EXPECT_EQ(shell(scene + "--trail long", folder.path()).exit_code, 2);
 }
 
 // Property: the same scene gives the same bytes in mp4 and avi, and the same images in webm.

@@ -25,7 +25,10 @@ struct SceneOptions {
 
 /// What a video shows, and how large it is.
 struct VideoLook {
-  std::string size;  // WxH; empty: what the scene says
+  std::string size;   // WxH; empty: what the scene says
+  std::string theme;  // dark or light; empty: dark
+  std::string trail;  // [s], or "whole"; empty: 3 s
+  std::optional<double> text;  // how much larger letters are than usual
   std::vector<std::string> show, hide;
 };
 

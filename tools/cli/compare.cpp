@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -25,6 +26,7 @@
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/journal.hpp"
 #include "tools/experiment/run_table.hpp"
+#include "tools/page/page.hpp"
 #include "tools/ranks/ranks.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
@@ -109,6 +111,26 @@ void write_run_table(const Campaign& campaign, const Results& results, const fs:
   file.commit();
 }
 
+/// Writes a page for the scene of each cell that is the first with its name, where this program can
+/// make pages and the scene fits into one.
+std::vector<ReportPage> pages_of(const Campaign& campaign, const fs::path& folder) {
+  std::vector<ReportPage> pages;
+  if (!page::what_is_missing().empty()) return pages;
+  std::map<std::string, std::string> file_of;  // by scene
+  for (std::size_t i = 0; i < campaign.cells.size(); ++i) {
+    const CampaignCell& cell = campaign.cells[i];
+    const auto [file, is_new] = file_of.try_emplace(cell.scene.name);
+    if (is_new && page::fits(cell.scene)) {
+      file->second = default_folder(cell.scene.name, cell.file).filename().string() + ".html";
+      write_file(folder / file->second,
+                 page::scene_page(cell.scene, {.command = "ghtrack run " + cell.file},
+                                  stop_if_interrupted));
+    }
+    if (!file->second.empty()) pages.push_back({i, file->second});
+  }
+  return pages;
+}
+
 /// Averages complete results, writes all files and prints the table.
 void publish(const Study& study, const Results& results, const fs::path& folder,
              const CompareOptions& options, const Manners& manners) {
@@ -122,7 +144,8 @@ void publish(const Study& study, const Results& results, const fs::path& folder,
   write_file(files.scratch() / "comparison.json", to_json(comparison).dump(2) + "\n");
   write_file(files.scratch() / "comparison.csv", comparison_csv(comparison));
   write_file(files.scratch() / "report.html",
-             comparison_report(comparison, {.videos = videos_in(folder, study.campaign)}));
+             comparison_report(comparison, {.videos = videos_in(folder, study.campaign),
+                                            .pages = pages_of(study.campaign, files.scratch())}));
   files.commit();
   print(to_table(comparison, terminal_width()));
   if (!manners.quiet) tell("results in {}", folder.string());

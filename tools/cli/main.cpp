@@ -139,7 +139,15 @@ void add_scene_options(CLI::App& command, SceneOptions& options, bool several) {
 /// What a video shows, and how large it is.
 void add_look(CLI::App& command, VideoLook& look) {
   command.add_option("--size", look.size,
-                     "WIDTHxHEIGHT [px], both even (default: what the scene says, else 1280x720)");
+                     "WIDTHxHEIGHT [px], both even (default: what the scene says, else 1280x720; a "
+                     "GIF is at most 640 wide)");
+  command.add_option("--theme", look.theme,
+                     "dark, or light for paper (default: dark)");
+  command.add_option("--trail", look.trail,
+                     "how far back true paths, detections and tracks are shown [s], or whole "
+                     "(default: 3)");
+  add_number(command, "--text", look.text, {.least = 0.5, .most = 3.0},
+             "how much larger letters are than usual, such as 1.5 for a large room (default: 1)");
   add_repeated(command, "--show", look.show,
                "layer to add, such as fans or insets; may be repeated, or a list: fans,insets")
       ->delimiter(',');

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,7 +39,19 @@ render::Encoder parse_encoder(const std::string& name) {
                                printable(name)));
 }
 
+/// A GIF of the usual size and frame rate has megabytes for each second.
+void make_small(render::VideoOptions& video) {
+  constexpr int kWidth = 640;
+  constexpr double kFps = 15.0;
+  video.fps = std::min(video.fps, kFps);
+  if (video.width <= kWidth) return;
+  const double scale = static_cast<double>(kWidth) / video.width;
+  video.height = std::max(160, 2 * static_cast<int>(std::lround(0.5 * scale * video.height)));
+  video.width = kWidth;
+}
+
 render::VideoOptions changed_by(const VideoCommandOptions& options, render::VideoOptions video) {
+  if (video.path.extension() == ".gif") make_small(video);
   apply(options.look, video);
   video.fps = options.fps.value_or(video.fps);
   video.slow = options.slow.value_or(video.slow);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -36,9 +38,31 @@ render::Layer parse_layer(const std::string& name) {
       fmt::format("unknown layer '{}'{}", printable(name), hint(name, "layers", names)));
 }
 
+VideoTheme parse_theme(const std::string& name) {
+  for (const auto& [known, theme] : enum_names(VideoTheme{})) {
+    if (known == name) return theme;
+  }
+  throw UsageError(
+      fmt::format("--theme is '{}'; allowed are dark and light", printable(name)));
+}
+
+double parse_trail(const std::string& text) {
+  if (text == "whole") return std::numeric_limits<double>::infinity();
+  double seconds = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, seconds);
+  if (error == std::errc{} && last == end && seconds >= 0.0 && std::isfinite(seconds)) {
+    return seconds;
+  }
+  throw UsageError(fmt::format("--trail is '{}'; wanted are seconds, or 'whole'", printable(text)));
+}
+
 }  // namespace
 
 void apply(const VideoLook& look, render::VideoOptions& video) {
+  if (!look.theme.empty()) video.theme = parse_theme(look.theme);
+  if (!look.trail.empty()) video.trail = parse_trail(look.trail);
+  video.text = look.text.value_or(video.text);
   if (!look.size.empty()) std::tie(video.width, video.height) = parse_size(look.size);
   for (const std::string& layer : look.show) video.layers.show(parse_layer(layer));
   for (const std::string& layer : look.hide) video.layers.hide(parse_layer(layer));

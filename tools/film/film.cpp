@@ -36,17 +36,35 @@ std::unique_ptr<TruthSource> truth_of(const WorldScene& scene, std::function<Wor
   return repeatable_truth(std::move(make_world), merged(scan_instants(scene), shown), on_step);
 }
 
+render::VideoWriter writer_of(const WorldScene& scene, render::VideoOptions options,
+                              const render::SceneDrawing& drawing) {
+  magnify_small_errors(scene, drawing, options);
+  return {options, drawing};
+}
+
 }  // namespace
 
 Film::Film(const WorldScene& scene, std::function<World()> make_world,
            const render::VideoOptions& options, std::span<const Contender> contenders,
            const Shown& shown, const std::function<void()>& on_step)
-    : times_(render::frame_times(options, scene.duration)),
+    : from_(options.from),
+      times_(merged(render::times_before(options),
+                    render::frame_times(options, scene.duration))),
       world_(make_world()),
       truth_(truth_of(scene, std::move(make_world), times_, on_step)),
-      writer_(options, drawing_of(scene, world_, *truth_, panels_of(contenders, shown), on_step)),
-      frames_(scene, shown, [this](const render::VideoFrame& frame) { writer_.add_frame(frame); }) {
+      writer_(writer_of(scene, options,
+                        drawing_of(scene, world_, *truth_, panels_of(contenders, shown), on_step))),
+      frames_(scene, world_.objects(), shown,
+              [this](const render::VideoFrame& frame) { show(frame); }) {
   truth_->restart();
+}
+
+void Film::show(const render::VideoFrame& frame) {
+  if (frame.time < from_) {
+    writer_.remember(frame);
+  } else {
+    writer_.add_frame(frame);
+  }
 }
 
 }  // namespace ghtrack::film

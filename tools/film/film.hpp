@@ -30,7 +30,7 @@ class Film final : public RunObserver {
   /// so it has been simulated and recorded already, if it fits into memory.
   TruthSource& truth() { return *truth_; }
 
-  /// Scene times of all frames [s].
+  /// Scene times of all frames, and before them of those that pictures only remember [s].
   const std::vector<double>& frame_times() const { return times_; }
 
   void add_tracks(const StepRecord& record) override { frames_.add_tracks(record); }
@@ -39,6 +39,9 @@ class Film final : public RunObserver {
   render::VideoWriter& writer() { return writer_; }
 
  private:
+  void show(const render::VideoFrame& frame);
+
+  double from_;  // [s] of the first frame that is shown
   std::vector<double> times_;
   World world_;  // stays at its start: only its wind is asked for
   std::unique_ptr<TruthSource> truth_;

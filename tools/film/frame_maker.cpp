@@ -7,16 +7,19 @@
 
 namespace ghtrack::film {
 
-FrameMaker::FrameMaker(const WorldScene& scene, const Shown& shown, OnFrame on_frame)
+FrameMaker::FrameMaker(const WorldScene& scene, const std::vector<ObjectInfo>& objects,
+                       const Shown& shown, OnFrame on_frame)
     : shown_(shown),
       on_frame_(std::move(on_frame)),
-      scores_(shown.count, RunningScore(scoring_for(traits_of(scene.sensors)).gospa())) {
+      scores_(shown.count,
+              RunningScore(scoring_for(traits_of(scene.sensors)).gospa(), objects)) {
   frame_.panels.resize(shown.count);
 }
 
 void FrameMaker::add_tracks(const StepRecord& record) {
   if (record.contender == 0) {
     latest_[record.observation.scan.sensor] = record.observation;
+    frame_.arrived.push_back(record.observation);
     ++frame_.scans;
   }
   const std::size_t panel = record.contender - shown_.first;
@@ -26,7 +29,8 @@ void FrameMaker::add_tracks(const StepRecord& record) {
   frame_.panels[panel] = {.tracks = record.tracks,
                           .pairings = score.pairings(),
                           .gospa = score.gospa(),
-                          .rmse = score.rmse()};
+                          .rmse = score.rmse(),
+                          .regimes = score.by_regime()};
 }
 
 void FrameMaker::add_frame(const TruthSnapshot& truth) {
@@ -35,6 +39,7 @@ void FrameMaker::add_frame(const TruthSnapshot& truth) {
   frame_.observations.clear();
   for (const auto& [sensor, observation] : latest_) frame_.observations.push_back(observation);
   on_frame_(frame_);
+  frame_.arrived.clear();
 }
 
 }  // namespace ghtrack::film

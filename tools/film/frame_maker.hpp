@@ -24,7 +24,8 @@ class FrameMaker final : public RunObserver {
  public:
   using OnFrame = std::function<void(const render::VideoFrame&)>;
 
-  FrameMaker(const WorldScene& scene, const Shown& shown, OnFrame on_frame);
+  FrameMaker(const WorldScene& scene, const std::vector<ObjectInfo>& objects, const Shown& shown,
+             OnFrame on_frame);
 
   void add_tracks(const StepRecord& record) override;
   void add_frame(const TruthSnapshot& truth) override;

@@ -39,6 +39,25 @@ void append(const Places& objects, const Places& tracks, const GospaResult& resu
 
 }  // namespace
 
+RunningScore::RunningScore(const GospaOptions& options, const std::vector<ObjectInfo>& objects)
+    : options_(options) {
+  for (const ObjectInfo& object : objects) {
+    const auto known = std::find(regimes_.begin(), regimes_.end(), object.regime);
+    regime_of_.push_back(static_cast<std::size_t>(known - regimes_.begin()));
+    if (known == regimes_.end()) regimes_.push_back(object.regime);
+  }
+  squared_errors_by_regime_.resize(regimes_.size());
+}
+
+std::vector<render::RegimeScore> RunningScore::by_regime() const {
+  std::vector<render::RegimeScore> scores;
+  if (regimes_.size() < 2) return scores;
+  for (std::size_t i = 0; i < regimes_.size(); ++i) {
+    scores.push_back({regimes_[i], squared_errors_by_regime_[i].root()});
+  }
+  return scores;
+}
+
 void RunningScore::add(const TruthSnapshot& truth, const TrackSnapshot& snapshot) {
   Places objects;
   for (const TruthState& object : truth.objects) objects.add(object.id, object.position);
@@ -59,7 +78,12 @@ void RunningScore::add(const TruthSnapshot& truth, const TrackSnapshot& snapshot
 
   const GospaResult all = ghtrack::gospa(objects.positions, tracks.positions, options_);
   gospa_.add(all.gospa);
-  for (const PointMatch& match : all.matches) squared_errors_.add(match.distance * match.distance);
+  for (const PointMatch& match : all.matches) {
+    const double squared = match.distance * match.distance;
+    const auto object = static_cast<std::size_t>(objects.ids[static_cast<std::size_t>(match.truth)]);
+    squared_errors_.add(squared);
+    squared_errors_by_regime_.at(regime_of_.at(object)).add(squared);
+  }
 
   if (pairings_.empty()) return append(objects, tracks, all, pairings_);
   const auto is_paired = [&](int render::Pairing::*member) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/truth.hpp"
@@ -15,7 +17,8 @@ namespace ghtrack::film {
 /// tracks count.
 class RunningScore {
  public:
-  explicit RunningScore(const GospaOptions& options) : options_(options) {}
+  /// @param objects  of which the truth tells
+  RunningScore(const GospaOptions& options, const std::vector<ObjectInfo>& objects);
 
   /// Compares what the tracker says with the truth of that instant.
   void add(const TruthSnapshot& truth, const TrackSnapshot& tracks);
@@ -26,6 +29,9 @@ class RunningScore {
   /// RMSE of the positions of tracks that are within GOSPA's cut-off of their target [m].
   std::optional<double> rmse() const { return squared_errors_.root(); }
 
+  /// The same for each regime that there is, in the order of the objects; empty for one alone.
+  std::vector<render::RegimeScore> by_regime() const;
+
   /// Who follows whom at the last instant. A pair stays together as long as it is within the
   /// cut-off, as in CLEAR MOT; the rest is paired as GOSPA does.
   const std::vector<render::Pairing>& pairings() const { return pairings_; }
@@ -34,6 +40,9 @@ class RunningScore {
   GospaOptions options_;
   Mean gospa_;           // [m]
   Mean squared_errors_;  // [m²]
+  std::vector<std::string> regimes_;                 // each once
+  std::vector<std::size_t> regime_of_;               // by object
+  std::vector<Mean> squared_errors_by_regime_;  // [m²]
   std::vector<render::Pairing> pairings_;
 };
 

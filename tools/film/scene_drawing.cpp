@@ -82,10 +82,32 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
   options.glide = config.glide;
   if (config.close_up) {
     if (const auto target = object_named(objects, config.close_up->target)) {
-      options.close_up = {*target, config.close_up->width, config.close_up->corner};
+      options.close_ups = {{*target, config.close_up->width, config.close_up->corner}};
     }
   }
   return options;
+}
+
+void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,
+                          render::VideoOptions& options) {
+  constexpr double kLeastVisible = 1.2;  // [px] that 1 sigma of a detection should have
+  constexpr double kWidthInSigmas = 40.0;
+  constexpr double kWidthInLengths = 2.5;
+  constexpr std::size_t kMost = 2;
+  const bool says_where = !options.shots.empty() || !options.close_ups.empty();
+  if (says_where) return;
+  const render::Rectangle world = render::world_of(drawing);
+  const Vec2 size = world.max - world.min;
+  const double scale = std::min(options.width / size.x(), options.height / size.y());  // [px/m]
+  double sigma = 0.0;
+  for (const SensorTraits& sensor : traits_of(scene.sensors)) sigma = std::max(sigma, sensor.sigma);
+  if (!(sigma * scale < kLeastVisible)) return;
+  for (const ObjectInfo& object : drawing.objects) {
+    if (options.close_ups.size() == kMost) return;
+    const double width = std::max(kWidthInSigmas * sigma, kWidthInLengths * object.outline.length);
+    if (width * 4.0 > size.x()) continue;  // would show no more than the whole does
+    options.close_ups.push_back({object.id, width, VideoCorner::kTopRight});
+  }
 }
 
 render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, TruthSource& truth,

@@ -26,6 +26,11 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, Tru
                                 std::vector<render::PanelDrawing> panels,
                                 const std::function<void()>& on_step);
 
+/// Adds close-ups of the first targets where errors would be far below a pixel of the whole picture,
+/// unless the scene says where to look.
+void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,
+                          render::VideoOptions& options);
+
 /// Whether the extent of the scene is not given.
 bool needs_extent(const WorldScene& scene);
 

@@ -1,7 +1,5 @@
 #include "tools/page/page.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -105,19 +103,24 @@ std::string what_is_missing() {
          "it again";
 }
 
+bool fits(const WorldScene& scene) {
+  constexpr std::size_t kNumbersPerObject = 11;  // its state and a body
+  const std::size_t objects = make_world(scene).objects().size();
+  return instants_of(scene).size() * objects * kNumbersPerObject <= kMostNumbers;
+}
+
 std::string scene_page(const WorldScene& scene, const PageOptions& options,
                        const std::function<void()>& on_step) {
   check_that_nothing_is_missing();
   const World world = make_world(scene);
   SimulatedTruth simulated([&] { return make_world(scene); });
+  if (!fits(scene)) {
+    throw std::runtime_error(
+        "the truth of this scene is more than a page can hold; a shorter --duration or fewer "
+        "targets make it smaller");
+  }
   const TruthRecording truth = record(simulated, instants_of(scene), on_step);
   const std::vector<double> numbers = to_numbers(truth);
-  if (numbers.size() > kMostNumbers) {
-    throw std::runtime_error(
-        fmt::format("the truth of this scene is {} MB, more than a page can hold; a shorter "
-                    "--duration or fewer targets make it smaller",
-                    numbers.size() * sizeof(double) >> 20));
-  }
   ReplayedTruth replayed(std::make_shared<const TruthRecording>(truth));
   const render::SceneDrawing drawing = film::drawing_of(scene, world, replayed, {}, on_step);
 

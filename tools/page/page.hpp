@@ -16,10 +16,13 @@ struct PageOptions {
   std::string command;  // that runs the scene: "ghtrack run scenes/three_regimes.yaml"
 };
 
+/// Whether the truth of a scene is small enough for a page.
+bool fits(const WorldScene& scene);
+
 /// A web page in one file: the truth of the scene, and the sensors, trackers and metrics to be
 /// played with. It works without a network.
 /// @param on_step  called now and then; may throw to give up
-/// @throws std::runtime_error if what_is_missing(), or the page would become too large
+/// @throws std::runtime_error if what_is_missing(), or if it does not fit
 std::string scene_page(const WorldScene& scene, const PageOptions& options,
                        const std::function<void()>& on_step);
 

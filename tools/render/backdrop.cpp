@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "tools/render/text.hpp"
 #include "tools/render/ticks.hpp"
 
 namespace ghtrack::render {
@@ -37,7 +38,8 @@ class Backdrop {
         style_(stage.style),
         fonts_(stage.fonts),
         world_(view_.world()),
-        step_(major_step(stage)) {}
+        step_(major_step(stage)),
+        theme_(stage.style.theme()) {}
 
   void ground() {
     const std::vector<Vec2> edge = edge_of_ground();
@@ -45,17 +47,17 @@ class Backdrop {
       const double depth = std::min({world_.min.y(), edge[i - 1].y(), edge[i].y()});
       canvas_.polygon({view_.to_pixel(edge[i - 1]), view_.to_pixel(edge[i]), at(edge[i].x(), depth),
                        at(edge[i - 1].x(), depth)},
-                      dark::kGround);
+                      theme_.ground);
     }
   }
 
   void boxes() {
-    for (const SolidBox& box : scene_.boxes) canvas_.polygon(outline_of(box), dark::kGround);
+    for (const SolidBox& box : scene_.boxes) canvas_.polygon(outline_of(box), theme_.ground);
   }
 
   void grid() {
-    lines(step_ / kMinorPerMajor, dark::kMinorGrid);
-    lines(step_, dark::kMajorGrid);
+    lines(step_ / kMinorPerMajor, theme_.minor_grid);
+    lines(step_, theme_.major_grid);
   }
 
   void field_of_view() {
@@ -63,20 +65,54 @@ class Backdrop {
       if (sensor.field_of_view.size() < 3) continue;
       std::vector<Pixel> corners = pixels(sensor.field_of_view);
       corners.push_back(corners.front());
-      canvas_.dashed(corners, dark::kFieldOfView, style_.length(8), style_.length(6),
+      canvas_.dashed(corners, theme_.field_of_view, style_.length(8), style_.length(6),
                      style_.length(1));
     }
   }
 
+  /// Where sensors stand, and whose field of view is whose.
+  void names_of_sensors() {
+    const int letters = style_.letters(13);
+    const Viewport& area = view_.viewport();
+    double row = 0.0;
+    for (const SensorDrawing& sensor : scene_.sensors) {
+      const std::u32string name = drawable(sensor.name, 24);
+      if (sensor.site && is_inside(view_.to_pixel(*sensor.site))) {
+        const Pixel m = view_.to_pixel(*sensor.site);
+        const double r = style_.length(7);
+        canvas_.polygon({{m.x, m.y - r}, {m.x + r, m.y + r}, {m.x - r, m.y + r}},
+                        theme_.field_of_view);
+        canvas_.rimmed_text(fonts_.bold, name, letters, {m.x, m.y + r + 1.3 * letters},
+                            theme_.muted_text, theme_.world, Canvas::Align::kCentre);
+      }
+      if (sensor.field_of_view.size() < 3) continue;
+      // At the left end of its upper edge, as far as that is in the picture; several in rows.
+      Pixel corner = view_.to_pixel(sensor.field_of_view.front());
+      for (const Vec2& place : sensor.field_of_view) {
+        const Pixel at = view_.to_pixel(place);
+        if (at.y < corner.y - 0.5 || (at.y < corner.y + 0.5 && at.x < corner.x)) corner = at;
+      }
+      const Pixel pen{
+          std::clamp(corner.x + style_.length(5), area.left + style_.length(44),
+                     std::max(area.left + style_.length(44), area.right() - style_.length(150))),
+          std::clamp(corner.y + 1.25 * letters, area.top + 1.25 * letters,
+                     std::max(area.top + 1.25 * letters, area.bottom() - style_.length(40))) +
+              row};
+      canvas_.rimmed_text(fonts_.regular, U"seen by " + name, letters, pen, theme_.field_of_view,
+                          theme_.world);
+      row += 1.2 * letters;
+    }
+  }
+
   void edge_of_the_ground() {
-    canvas_.polyline(pixels(edge_of_ground()), dark::kGroundLine, style_.length(2));
+    canvas_.polyline(pixels(edge_of_ground()), theme_.ground_line, style_.length(2));
   }
 
   void edges_of_walls() {
     for (const SolidBox& box : scene_.boxes)
-      canvas_.outline(outline_of(box), dark::kGroundLine, style_.length(2));
+      canvas_.outline(outline_of(box), theme_.ground_line, style_.length(2));
     for (const Wall& wall : scene_.walls)
-      canvas_.line(view_.to_pixel(wall.from), view_.to_pixel(wall.to), dark::kGroundLine,
+      canvas_.line(view_.to_pixel(wall.from), view_.to_pixel(wall.to), theme_.ground_line,
                    style_.length(4));
   }
 
@@ -85,26 +121,26 @@ class Backdrop {
       const std::vector<Pixel> points = pixels(rail);
       if (length_of(points) < style_.length(kShortestRail)) continue;
       ties(points);
-      canvas_.polyline(points, dark::kTie, style_.length(1.6));
+      canvas_.polyline(points, theme_.tie, style_.length(1.6));
     }
   }
 
   void numbers() {
-    const Color color = dark::kAxisText;
+    const Color color = theme_.axis_text;
     const int letters = style_.letters(13);
     const Viewport& area = view_.viewport();
     for (const double x : multiples(step_, world_.min.x(), world_.max.x())) {
       const Pixel pen{view_.to_pixel({x, 0.0}).x, area.bottom() - style_.length(6)};
       if (pen.x > area.left + style_.length(44) &&
           pen.x < area.right() - step_ * view_.scale() - style_.length(44))
-        canvas_.rimmed_text(fonts_.regular, tick_label(x, step_), letters, pen, color, dark::kWorld,
+        canvas_.rimmed_text(fonts_.regular, tick_label(x, step_), letters, pen, color, theme_.world,
                             Canvas::Align::kCentre);
     }
     for (const double y : multiples(step_, world_.min.y(), world_.max.y())) {
       const Pixel pen{area.left + style_.length(6), view_.to_pixel({0.0, y}).y + 0.35 * letters};
       if (pen.y > area.top + style_.length(18) && pen.y < area.bottom() - style_.length(24))
         canvas_.rimmed_text(fonts_.regular, tick_label(y, step_), letters, pen, color,
-                            dark::kWorld);
+                            theme_.world);
     }
   }
 
@@ -115,15 +151,20 @@ class Backdrop {
     const double right = box.right() - edge;
     const double y = box.bottom() - edge;
     const double tick = style_.length(5);
-    canvas_.rectangle(box, {dark::kWorld, 0.7});
-    canvas_.polyline({{left, y - tick}, {left, y}, {right, y}, {right, y - tick}}, dark::kMutedText,
+    canvas_.rectangle(box, {theme_.world, 0.7});
+    canvas_.polyline({{left, y - tick}, {left, y}, {right, y}, {right, y - tick}}, theme_.muted_text,
                      style_.length(2));
     canvas_.text(fonts_.regular, tick_label(step_, step_) + U" m", style_.letters(14),
-                 {0.5 * (left + right), y - style_.length(7)}, dark::kMutedText,
+                 {0.5 * (left + right), y - style_.length(7)}, theme_.muted_text,
                  Canvas::Align::kCentre);
   }
 
  private:
+  bool is_inside(const Pixel& at) const {
+    const Viewport& area = view_.viewport();
+    return at.x >= area.left && at.x < area.right() && at.y >= area.top && at.y < area.bottom();
+  }
+
   /// Short strokes across a track, evenly along it.
   void ties(const std::vector<Pixel>& points) {
     const double spacing = style_.length(9);
@@ -138,7 +179,7 @@ class Backdrop {
         const Pixel m{points[i - 1].x + dx * next / length, points[i - 1].y + dy * next / length};
         const Pixel across{-dy / length * half, dx / length * half};
         canvas_.line({m.x - across.x, m.y - across.y}, {m.x + across.x, m.y + across.y},
-                     dark::kRail, style_.length(1.6));
+                     theme_.rail, style_.length(1.6));
       }
       next -= length;
     }
@@ -193,12 +234,13 @@ class Backdrop {
   const Typefaces& fonts_;
   Rectangle world_;
   double step_;  // [m] between major lines
+  const Theme& theme_;
 };
 
 }  // namespace
 
 void draw_backdrop(Canvas& canvas, const Stage& stage, AxisNumbers numbers) {
-  canvas.fill(dark::kWorld);
+  canvas.fill(stage.style.theme().world);
   Backdrop backdrop(canvas, stage);
   if (stage.shows(Layer::kGround)) backdrop.ground();
   if (stage.shows(Layer::kWalls)) backdrop.boxes();
@@ -207,6 +249,7 @@ void draw_backdrop(Canvas& canvas, const Stage& stage, AxisNumbers numbers) {
   if (stage.shows(Layer::kGround)) backdrop.edge_of_the_ground();
   if (stage.shows(Layer::kWalls)) backdrop.edges_of_walls();
   if (stage.shows(Layer::kRails)) backdrop.rails();
+  if (stage.shows(Layer::kFieldOfView)) backdrop.names_of_sensors();
   if (!stage.shows(Layer::kGrid)) return;
   if (numbers == AxisNumbers::kShown) backdrop.numbers();
   backdrop.scale_bar();

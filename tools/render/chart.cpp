@@ -39,7 +39,7 @@ Pixel Chart::at(double time, double value) const {
 }
 
 void Chart::draw_axes(Canvas& canvas, std::u32string_view title) const {
-  canvas.rectangle(area_, dark::kWorld);
+  canvas.rectangle(area_, style_.theme().world);
   const int letters = style_.letters(13);
   const auto count = [&](double length, double spacing) {
     return std::max(1, static_cast<int>(length / style_.length(spacing)));
@@ -48,21 +48,21 @@ void Chart::draw_axes(Canvas& canvas, std::u32string_view title) const {
       round_ticks(values_.low, values_.high, count(box_.height, kRow));
   for (const double value : values) {
     const Pixel left = at(times_.low, value);
-    canvas.line(left, at(times_.high, value), dark::kMajorGrid);
+    canvas.line(left, at(times_.high, value), style_.theme().major_grid);
     canvas.text(fonts_.regular, tick_label(value, step_of(values)), letters,
-                {left.x - style_.length(6), left.y + 0.35 * letters}, dark::kAxisText,
+                {left.x - style_.length(6), left.y + 0.35 * letters}, style_.theme().axis_text,
                 Canvas::Align::kRight);
   }
   const std::vector<double> times =
       round_ticks(times_.low, times_.high, count(box_.width, kColumn));
   for (const double time : times) {
     const Pixel foot = at(time, values_.low);
-    canvas.line(foot, at(time, values_.high), dark::kMinorGrid);
+    canvas.line(foot, at(time, values_.high), style_.theme().minor_grid);
     canvas.text(fonts_.regular, tick_label(time, step_of(times)) + U" s", letters,
-                {foot.x, box_.bottom() + 1.4 * letters}, dark::kAxisText, Canvas::Align::kCentre);
+                {foot.x, box_.bottom() + 1.4 * letters}, style_.theme().axis_text, Canvas::Align::kCentre);
   }
   canvas.text(fonts_.regular, title, style_.letters(13), {box_.left, area_.top + style_.length(17)},
-              dark::kMutedText);
+              style_.theme().muted_text);
 }
 
 }  // namespace ghtrack::render

@@ -33,7 +33,7 @@ void ErrorPlot::draw(Canvas& canvas, const Viewport& area, const Style& style,
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     std::vector<Pixel> line;
     for (const Point& point : curves_[i]) line.push_back(chart.at(point.time, point.error));
-    canvas.polyline(line, track_color(static_cast<int>(i) + 1), style.length(2));
+    canvas.polyline(line, style.theme().track(static_cast<int>(i)), style.length(2));
   }
 }
 

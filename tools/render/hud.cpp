@@ -72,38 +72,49 @@ void draw_hud(Canvas& canvas, const Viewport& area, const VideoOptions& options,
   };
   const std::u32string time = number_text("%.2f s", frame.time);
   const double time_room = fonts.bold.width(U"00000.00 s", large);
-  line(first, fonts.bold, large, drawable(scene.title), dark::kText, time, time_room);
+  line(first, fonts.bold, large, drawable(scene.title), style.theme().text, time, time_room);
   if (frame.panels.size() == 1)
     canvas.text(fonts.regular, scores_of(frame.panels.front()), small,
-                {right - time_room - margin, first}, dark::kText, Canvas::Align::kRight);
+                {right - time_room - margin, first}, style.theme().text, Canvas::Align::kRight);
   const std::u32string facts = facts_of(frame);
-  line(second, fonts.regular, small, facts_of(scene, options), dark::kMutedText, facts,
+  line(second, fonts.regular, small, facts_of(scene, options), style.theme().muted_text, facts,
        fonts.regular.width(facts, small));
 }
 
 void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawing,
-                 const PanelFrame& panel, Color color, const Style& style, const Typefaces& fonts) {
+                 const PanelFrame& panel, Color color, bool leads, const Style& style,
+                 const Typefaces& fonts) {
   const int letters = style.letters(16);
   const int small = style.letters(14);
   const double gap = style.length(12);
-  const double baseline = area.top + 0.5 * area.height + 0.36 * letters;
-  double x = area.left + gap;
-  canvas.disc({x + style.length(5), area.top + 0.5 * area.height}, style.length(5), color);
-  x += style.length(18);
-
-  const std::u32string scores = scores_of(panel);
-  const double right = area.right() - gap - fonts.regular.width(scores, letters);
-  canvas.text(fonts.regular, scores, letters, {area.right() - gap, baseline}, dark::kText,
-              Canvas::Align::kRight);
-  const auto write = [&](const Font& font, int height, const std::string& text, Color ink) {
-    const double room = right - gap - x;
+  const double left = area.left + style.length(30);
+  const double first = area.top + 1.2 * letters;
+  const double second = first + 1.35 * small;
+  const Theme& theme = style.theme();
+  canvas.disc({area.left + style.length(17), first - 0.36 * letters}, style.length(5), color);
+  if (leads) {
+    canvas.ring({area.left + style.length(17), first - 0.36 * letters}, style.length(9), color,
+                style.length(2));
+  }
+  /// Writes something at the right edge, and something else as far as there is room.
+  const auto line = [&](double baseline, const Font& font, int height, const std::string& text,
+                        Color ink, const std::u32string& at_right, const Font& right_font) {
+    canvas.text(right_font, at_right, height, {area.right() - gap, baseline}, theme.text,
+                Canvas::Align::kRight);
+    const double room = area.right() - 2.0 * gap - right_font.width(at_right, height) - left;
     if (room < 3.0 * height) return;
-    const std::u32string fitted = font.fitted(drawable(text), height, static_cast<int>(room));
-    canvas.text(font, fitted, height, {x, baseline}, ink);
-    x += font.width(fitted, height) + gap;
+    canvas.text(font, font.fitted(drawable(text), height, static_cast<int>(room)), height,
+                {left, baseline}, ink);
   };
-  write(fonts.bold, letters, drawing.name, dark::kText);
-  write(fonts.regular, small, drawing.gains, dark::kMutedText);
+  std::u32string regimes;
+  for (const RegimeScore& score : panel.regimes) {
+    if (!regimes.empty()) regimes += U"   ";
+    regimes += drawable(score.regime, 12) + U" " +
+               (score.rmse ? number_text("%.2f m", *score.rmse) : U"–");
+  }
+  line(first, fonts.bold, letters, drawing.name + (leads ? " – leads" : ""), theme.text,
+       scores_of(panel), leads ? fonts.bold : fonts.regular);
+  line(second, fonts.regular, small, drawing.gains, theme.muted_text, regimes, fonts.regular);
 }
 
 }  // namespace ghtrack::render

@@ -40,6 +40,7 @@ void InsetPlots::remember(const VideoFrame& frame, const PanelFrame& panel,
       if (pairing.track == track.id) error = pairing.distance;
     Curve& curve = tracks_[track.id];
     curve.color = memory.color_of(track);
+    curve.name = memory.name_of(track);
     add(curve, {panel.tracks.time,
                 {error, track.residual ? track.residual->norm() : kNan, track.position.x(),
                  track.position.y()}});
@@ -47,7 +48,6 @@ void InsetPlots::remember(const VideoFrame& frame, const PanelFrame& panel,
   for (const TruthState& object : frame.truth.objects) {
     if (truth_.size() >= kMostCurves && !truth_.contains(object.id)) continue;
     Curve& curve = truth_[object.id];
-    curve.color = dark::kTruthEdge;
     add(curve, {frame.time, {kNan, kNan, object.position.x(), object.position.y()}});
   }
   const auto forget = [&](auto& curves) {
@@ -58,6 +58,26 @@ void InsetPlots::remember(const VideoFrame& frame, const PanelFrame& panel,
   };
   forget(tracks_);
   forget(truth_);
+}
+
+double InsetPlots::draw_key(Canvas& canvas, const Viewport& area, const Style& style,
+                            const Typefaces& fonts) const {
+  const int letters = style.letters(13);
+  const double height = 1.6 * letters;
+  const double baseline = area.top + 1.15 * letters;
+  canvas.rectangle({area.left, area.top, area.width, height}, style.theme().world);
+  double x = area.left + style.length(12);
+  const auto add = [&](const std::u32string& name, Color color) {
+    if (x + fonts.regular.width(name, letters) > area.right()) return;
+    canvas.line({x, baseline - 0.35 * letters}, {x + style.length(16), baseline - 0.35 * letters},
+                color, style.length(3));
+    x += style.length(22);
+    canvas.text(fonts.regular, name, letters, {x, baseline}, style.theme().muted_text);
+    x += fonts.regular.width(name, letters) + style.length(14);
+  };
+  add(U"truth", style.theme().truth_edge);
+  for (const auto& [id, curve] : tracks_) add(curve.name, curve.color);
+  return height;
 }
 
 void InsetPlots::draw_plot(Canvas& canvas, const Viewport& area, Quantity quantity,
@@ -82,23 +102,27 @@ void InsetPlots::draw_plot(Canvas& canvas, const Viewport& area, Quantity quanti
   const Chart chart(area, {from, from + seconds_}, values, style, fonts);
   chart.draw_axes(canvas, kTitles[quantity]);
   Canvas inside = canvas.within(chart.box());
-  const auto draw_curves = [&](const std::map<int, Curve>& curves, double thickness) {
+  const auto draw_curves = [&](const std::map<int, Curve>& curves, double thickness, bool is_truth) {
     for (const auto& [id, curve] : curves) {
       std::vector<Pixel> line;  // a value that is not finite gives a gap
       for (const Sample& sample : curve.samples)
         line.push_back(chart.at(sample.time, sample.values[quantity]));
-      inside.polyline(line, curve.color, style.length(thickness));
+      inside.polyline(line, is_truth ? style.theme().truth_edge : curve.color,
+                      style.length(thickness));
     }
   };
-  draw_curves(truth_, 3.0);
-  draw_curves(tracks_, 1.5);
+  draw_curves(truth_, 3.0, true);
+  draw_curves(tracks_, 1.5, false);
 }
 
 void InsetPlots::draw(Canvas& canvas, const Viewport& area, const Style& style,
                       const Typefaces& fonts) const {
+  const double key = draw_key(canvas, area, style, fonts);
   const double width = area.width / kQuantities;
   for (std::size_t i = 0; i < kQuantities; ++i)
-    draw_plot(canvas, {area.left + static_cast<double>(i) * width, area.top, width, area.height},
+    draw_plot(canvas,
+              {area.left + static_cast<double>(i) * width, area.top + key, width,
+               area.height - key},
               static_cast<Quantity>(i), style, fonts);
 }
 

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "tools/render/canvas.hpp"
 #include "tools/render/style.hpp"
@@ -32,9 +33,13 @@ class InsetPlots {
   };
   struct Curve {
     Color color;
+    std::u32string name;
     std::deque<Sample> samples;
   };
   void add(Curve& curve, const Sample& sample) const;
+  /// The names of the curves in their colours, in a row. Returns its height [px].
+  double draw_key(Canvas& canvas, const Viewport& area, const Style& style,
+                  const Typefaces& fonts) const;
   void draw_plot(Canvas& canvas, const Viewport& area, Quantity quantity, const Style& style,
                  const Typefaces& fonts) const;
 

@@ -7,7 +7,7 @@ namespace ghtrack::render {
 namespace {
 
 constexpr double kHudHeight = 56.0;
-constexpr double kHeaderHeight = 28.0;
+constexpr double kHeaderHeight = 46.0;  // two lines
 constexpr double kGap = 4.0;
 constexpr double kPlotShare = 0.2;      // of the picture's height
 constexpr double kCloseUpShare = 0.27;  // of the panel's width and height at least
@@ -50,6 +50,24 @@ Viewport corner_of(const Viewport& panel, VideoCorner corner, const Style& style
           is_top ? panel.top + margin : panel.bottom() - margin - height, width, height};
 }
 
+/// Close-ups that share a corner lie one above the other.
+std::vector<Viewport> corners_of(const Viewport& panel, const std::vector<CloseUp>& close_ups,
+                                 const Style& style) {
+  std::vector<Viewport> places;
+  for (std::size_t i = 0; i < close_ups.size(); ++i) {
+    Viewport place = corner_of(panel, close_ups[i].corner, style);
+    const bool is_top = close_ups[i].corner == VideoCorner::kTopLeft ||
+                        close_ups[i].corner == VideoCorner::kTopRight;
+    const auto before =
+        std::count_if(close_ups.begin(), close_ups.begin() + static_cast<std::ptrdiff_t>(i),
+                      [&](const CloseUp& other) { return other.corner == close_ups[i].corner; });
+    const double step = static_cast<double>(before) * (place.height + style.length(kGap));
+    place.top += is_top ? step : -step;
+    places.push_back(place);
+  }
+  return places;
+}
+
 }  // namespace
 
 Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style,
@@ -85,8 +103,9 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
   }
   layout.plots = best.has_place_left ? best.place(count)
                                      : Viewport{0.0, layout.legend.top - strip, width, strip};
-  if (options.close_up && count == 1)
-    layout.close_up = corner_of(layout.panels.front(), options.close_up->corner, style);
+  for (const Viewport& panel : layout.panels) {
+    layout.close_ups.push_back(corners_of(panel, options.close_ups, style));
+  }
   return layout;
 }
 

@@ -13,7 +13,7 @@ struct Layout {
   std::vector<Viewport> headers;  // of the panels, when there are several
   std::vector<Viewport> panels;   // what shows the world, one for each compared filter
   Viewport plots;                 // over time
-  Viewport close_up;              // on top of the only panel
+  std::vector<std::vector<Viewport>> close_ups;  // on top of each panel
   Viewport legend;
 };
 

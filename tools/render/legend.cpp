@@ -1,8 +1,10 @@
 #include "tools/render/legend.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "tools/render/scene_memory.hpp"
 #include "tools/render/text.hpp"
 #include "tools/render/wind_painter.hpp"
 
@@ -21,43 +23,55 @@ constexpr double kLetters = 14.0;
 /// Draws a sign in a box of 26 × 26 units around its middle.
 void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wind_arrow) {
   const double u = style.unit;
-  const Color color = kSkyBlue;
+  const Color color = style.theme().track(1);
   const auto at = [&](double x, double y) { return Pixel{m.x + x * u, m.y + y * u}; };
   switch (sign) {
     case Sign::kTrain: {
       const std::vector<Pixel> corners{at(-12, -5), at(12, -5), at(12, 5), at(-12, 5)};
-      canvas.polygon(corners, dark::kTruth);
-      canvas.outline(corners, dark::kTruthEdge, style.length(1));
+      canvas.polygon(corners, style.theme().truth);
+      canvas.outline(corners, style.theme().truth_edge, style.length(1));
       break;
     }
     case Sign::kBall:
-      canvas.disc(m, 6 * u, dark::kTruth);
-      canvas.ring(m, 6 * u, dark::kTruthEdge, style.length(1));
-      canvas.line(m, at(5.5, -2), dark::kTruthEdge, style.length(1.5));
+      canvas.disc(m, 6 * u, style.theme().truth);
+      canvas.ring(m, 6 * u, style.theme().truth_edge, style.length(1));
+      canvas.line(m, at(5.5, -2), style.theme().truth_edge, style.length(1.5));
       break;
     case Sign::kBalloon:
-      canvas.line(at(0, 4), at(1, 12), dark::kTruthEdge, style.length(1));
-      canvas.polygon(ellipse_outline(at(0, -2), {6 * u, 0}, {0, 7 * u}), dark::kTruth);
-      canvas.outline(ellipse_outline(at(0, -2), {6 * u, 0}, {0, 7 * u}), dark::kTruthEdge,
+      canvas.line(at(0, 4), at(1, 12), style.theme().truth_edge, style.length(1));
+      canvas.polygon(ellipse_outline(at(0, -2), {6 * u, 0}, {0, 7 * u}), style.theme().truth);
+      canvas.outline(ellipse_outline(at(0, -2), {6 * u, 0}, {0, 7 * u}), style.theme().truth_edge,
                      style.length(1));
       break;
     case Sign::kDrone:
-      canvas.polygon({at(-4, 0), at(4, 0), at(3, 5), at(-3, 5)}, dark::kTruth);
-      canvas.line(at(-9, 0), at(9, 0), dark::kTruthEdge, style.length(2));
+      canvas.polygon({at(-4, 0), at(4, 0), at(3, 5), at(-3, 5)}, style.theme().truth);
+      canvas.line(at(-9, 0), at(9, 0), style.theme().truth_edge, style.length(2));
       for (const double side : {-9.0, 9.0})
-        canvas.line(at(side - 4, -3), at(side + 4, -3), dark::kTruthEdge, style.length(1.5));
+        canvas.line(at(side - 4, -3), at(side + 4, -3), style.theme().truth_edge, style.length(1.5));
       break;
     case Sign::kDetection:
-      canvas.cross(m, 5 * u, dark::kDetection, style.length(1.5));
+    case Sign::kSecondDetection:
+    case Sign::kThirdDetection:
+      draw_detection(canvas, static_cast<int>(sign) - static_cast<int>(Sign::kDetection), m, 5 * u,
+                     style.theme().detection, style.length(1.5));
+      break;
+    case Sign::kPast:
+      for (int i = 0; i < 3; ++i)
+        canvas.cross(at(-8.0 + 8 * i, 3.0 - 3 * i), 2.2 * u,
+                     {style.theme().detection, 0.3 + 0.15 * i}, style.length(1));
+      break;
+    case Sign::kPath:
+      canvas.dashed({at(-12, 3), at(12, -3)}, {style.theme().truth_edge, 0.8}, 5 * u, 4 * u,
+                    style.length(1.2));
       break;
     case Sign::kClutter:
-      canvas.disc(m, 2.5 * u, dark::kClutter);
+      canvas.disc(m, 2.5 * u, style.theme().clutter);
       break;
     case Sign::kTrack:
       canvas.ring(m, 8 * u, color, style.length(2));
       break;
     case Sign::kTentative:
-      canvas.ring(m, 6 * u, dark::kTentative, style.length(1));
+      canvas.ring(m, 6 * u, style.theme().tentative, style.length(1));
       break;
     case Sign::kCoasting: {
       std::vector<Pixel> ring = ellipse_outline(m, {8 * u, 0}, {0, 8 * u});
@@ -68,7 +82,7 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wi
     case Sign::kTrail:
       for (int i = 0; i < 6; ++i)
         canvas.line(at(-12.0 + 4 * i, 4.0 - 1.4 * i), at(-8.0 + 4 * i, 2.6 - 1.4 * i),
-                    mix(dark::kPage, color, 0.2 + 0.16 * i), style.length(2));
+                    mix(style.theme().page, color, 0.2 + 0.16 * i), style.length(2));
       break;
     case Sign::kResidual:
       canvas.polygon({at(-13, 4), at(-9, 0), at(-5, 4), at(-9, 8)}, color);
@@ -84,14 +98,14 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wi
       canvas.cross(m, 7 * u, color, style.length(2));
       break;
     case Sign::kSwitch:
-      canvas.ring(m, 9 * u, dark::kDetection, style.length(3));
+      canvas.ring(m, 9 * u, style.theme().detection, style.length(3));
       break;
     case Sign::kFieldOfView:
-      canvas.dashed({at(-12, 0), at(12, 0)}, dark::kAxisText, 7 * u, 5 * u, style.length(1.3));
+      canvas.dashed({at(-12, 0), at(12, 0)}, style.theme().axis_text, 7 * u, 5 * u, style.length(1.3));
       break;
     case Sign::kWind:
       canvas.arrow({m.x - 0.5 * wind_arrow, m.y}, {m.x + 0.5 * wind_arrow, m.y}, 7 * u,
-                   dark::kAxisText, style.length(1));
+                   style.theme().axis_text, style.length(1));
       break;
   }
 }
@@ -131,7 +145,10 @@ Legend::Legend(const VideoOptions& options, const SceneDrawing& scene, const Sty
     wind_arrow_ = wind_arrow_length(speed, scene, world_style);
     add({Sign::kWind}, U"wind " + number_text("%g m/s", speed));
   }
-  if (layers.shows(Layer::kDetections)) add({Sign::kDetection}, U"detection");
+  const bool shows_past = layers.shows(Layer::kTrails);
+  if (shows_past && layers.shows(Layer::kTruth)) add({Sign::kPath}, U"true path");
+  if (layers.shows(Layer::kDetections)) add_detections(scene);
+  if (shows_past && layers.shows(Layer::kDetections)) add({Sign::kPast}, U"earlier");
   if (layers.shows(Layer::kClutter) &&
       any_sensor([](const SensorDrawing& sensor) { return sensor.has_clutter; }))
     add({Sign::kClutter}, U"clutter");
@@ -147,6 +164,15 @@ Legend::Legend(const VideoOptions& options, const SceneDrawing& scene, const Sty
     add({Sign::kSwitch}, U"ID switch");
   }
   break_into_rows(options.width - 2.0 * style.length(kMargin));
+}
+
+/// One for all sensors, or each with its own mark.
+void Legend::add_detections(const SceneDrawing& scene) {
+  constexpr std::array kMarks = {Sign::kDetection, Sign::kSecondDetection, Sign::kThirdDetection};
+  if (scene.sensors.size() < 2) return add({Sign::kDetection}, U"detection");
+  for (std::size_t i = 0; i < scene.sensors.size() && i < kMarks.size(); ++i) {
+    add({kMarks[i]}, drawable(scene.sensors[i].name, 24));
+  }
 }
 
 void Legend::add(std::vector<Sign> signs, std::u32string meaning) {
@@ -204,7 +230,7 @@ void Legend::draw(Canvas& canvas, const Viewport& area) const {
       x += icon;
     }
     canvas.text(fonts_.regular, entry.meaning, letters,
-                {x + style_.length(kGap), at.y + 0.36 * letters}, dark::kMutedText);
+                {x + style_.length(kGap), at.y + 0.36 * letters}, style_.theme().muted_text);
     at.x += entry.width + style_.length(kSpace);
   }
 }

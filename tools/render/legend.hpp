@@ -16,7 +16,11 @@ enum class Sign {
   kDrone,
   kFieldOfView,
   kWind,
-  kDetection,
+  kDetection,  // of the first sensor, the second, the third
+  kSecondDetection,
+  kThirdDetection,
+  kPast,
+  kPath,
   kClutter,
   kTrail,
   kGate,
@@ -48,6 +52,7 @@ class Legend {
     double width;  // [px] of it all
     bool begins_row = false;
   };
+  void add_detections(const SceneDrawing& scene);
   void add(std::vector<Sign> signs, std::u32string meaning);
   int fill_rows(double room);
   void break_into_rows(double room);

@@ -14,6 +14,7 @@ class VideoSink {
  public:
   virtual ~VideoSink() = default;
   virtual void add_frame(const VideoFrame& frame) = 0;
+  virtual void remember(const VideoFrame& frame) = 0;
   virtual void write_poster(const std::filesystem::path& path) = 0;
   virtual void finish() = 0;
   virtual void keep_partial() = 0;

@@ -39,45 +39,89 @@ inline double contrast(Color first, Color second) {
   return (std::fmax(a, b) + 0.05) / (std::fmin(a, b) + 0.05);
 }
 
-// The colours that people with any kind of colour vision tell apart (Okabe & Ito 2008), without
-// black, which does not show on the dark ground, and with a lighter blue for the same reason.
-inline constexpr Color kOrange{230, 159, 0};
-inline constexpr Color kSkyBlue{86, 180, 233};
-inline constexpr Color kBluishGreen{0, 158, 115};
-inline constexpr Color kYellow{240, 228, 66};
-inline constexpr Color kBlue{0, 114, 178};
-inline constexpr Color kVermillion{213, 94, 0};
-inline constexpr Color kReddishPurple{204, 121, 167};
+/// The colours of a picture: what is drawn in no colour, and those that tell tracks apart.
+struct Theme {
+  Color page, world, minor_grid, major_grid, axis_text;
+  Color ground, ground_line, rail, tie;
+  Color field_of_view, wind;
+  Color truth, truth_edge;
+  Color detection, clutter, tentative;
+  Color text, muted_text;
+  std::array<Color, 12> tracks;
 
-inline constexpr std::array<Color, 7> kTrackColors{
-    kOrange, kSkyBlue, kBluishGreen, kYellow, kReddishPurple, kVermillion, kBlue};
+  /// Of the object, or filter, with that index: the same during a whole run. After the twelfth they
+  /// come again.
+  constexpr Color track(int index) const {
+    const int count = static_cast<int>(tracks.size());
+    return tracks[static_cast<std::size_t>((index % count + count) % count)];
+  }
+};
 
-/// The colour of a track, or of a compared filter: the same during a whole run.
-constexpr Color track_color(int id) {
-  const int count = static_cast<int>(kTrackColors.size());
-  return kTrackColors[static_cast<std::size_t>(((id - 1) % count + count) % count)];
-}
+/// For screens. The first seven colours are those that people with any kind of colour vision tell
+/// apart (Okabe & Ito 2008), without black and with a lighter blue, which show on the dark ground.
+inline constexpr Theme kDark{
+    .page = {11, 14, 19},
+    .world = {17, 22, 29},
+    .minor_grid = {24, 31, 40},
+    .major_grid = {40, 50, 62},
+    .axis_text = {128, 140, 155},
+    .ground = {31, 28, 25},
+    .ground_line = {122, 106, 86},
+    .rail = {58, 68, 81},
+    .tie = {98, 110, 125},
+    .field_of_view = {92, 118, 142},
+    .wind = {60, 90, 112},
+    .truth = {70, 80, 93},
+    .truth_edge = {190, 200, 212},
+    .detection = {255, 255, 255},
+    .clutter = {122, 131, 143},
+    .tentative = {148, 157, 168},
+    .text = {232, 237, 243},
+    .muted_text = {154, 166, 180},
+    .tracks = {{{230, 159, 0},
+                {86, 180, 233},
+                {0, 158, 115},
+                {240, 228, 66},
+                {204, 121, 167},
+                {213, 94, 0},
+                {0, 114, 178},
+                {255, 157, 167},
+                {161, 214, 98},
+                {156, 140, 255},
+                {196, 154, 108},
+                {94, 225, 213}}}};
 
-/// The dark ground on which videos are drawn, and what is drawn on it in no colour.
-namespace dark {
-inline constexpr Color kPage{11, 14, 19};
-inline constexpr Color kWorld{17, 22, 29};
-inline constexpr Color kMinorGrid{24, 31, 40};
-inline constexpr Color kMajorGrid{40, 50, 62};
-inline constexpr Color kAxisText{128, 140, 155};
-inline constexpr Color kGround{31, 28, 25};
-inline constexpr Color kGroundLine{122, 106, 86};
-inline constexpr Color kRail{58, 68, 81};
-inline constexpr Color kTie{98, 110, 125};
-inline constexpr Color kFieldOfView{62, 82, 102};
-inline constexpr Color kWind{60, 90, 112};
-inline constexpr Color kTruth{70, 80, 93};
-inline constexpr Color kTruthEdge{190, 200, 212};
-inline constexpr Color kDetection{255, 255, 255};
-inline constexpr Color kClutter{122, 131, 143};
-inline constexpr Color kTentative{148, 157, 168};
-inline constexpr Color kText{232, 237, 243};
-inline constexpr Color kMutedText{154, 166, 180};
-}  // namespace dark
+/// For paper and bright rooms: the same hues, dark enough for a white ground.
+inline constexpr Theme kLight{
+    .page = {255, 255, 255},
+    .world = {255, 255, 255},
+    .minor_grid = {243, 245, 247},
+    .major_grid = {223, 228, 233},
+    .axis_text = {92, 102, 113},
+    .ground = {236, 232, 224},
+    .ground_line = {133, 113, 88},
+    .rail = {188, 196, 205},
+    .tie = {120, 131, 143},
+    .field_of_view = {94, 118, 142},
+    .wind = {150, 178, 200},
+    .truth = {214, 220, 227},
+    .truth_edge = {48, 56, 66},
+    .detection = {20, 24, 30},
+    .clutter = {134, 143, 154},
+    .tentative = {110, 119, 130},
+    .text = {20, 24, 30},
+    .muted_text = {82, 92, 103},
+    .tracks = {{{176, 106, 0},
+                {20, 121, 189},
+                {0, 122, 87},
+                {138, 122, 0},
+                {171, 66, 124},
+                {196, 74, 0},
+                {0, 82, 147},
+                {205, 62, 82},
+                {77, 133, 16},
+                {99, 78, 208},
+                {133, 92, 48},
+                {0, 131, 125}}}};
 
 }  // namespace ghtrack::render

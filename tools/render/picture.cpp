@@ -1,5 +1,6 @@
 #include "tools/render/picture.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,12 +19,34 @@ namespace {
 constexpr double kDetectionSeconds = 1.0;  // of the video, in which a detection fades away
 constexpr double kSmallUnit = 0.8;         // signs are smaller when panels share the picture
 
-Color panel_color(std::size_t index) { return track_color(static_cast<int>(index) + 1); }
-
-double end_of(const VideoOptions& options, const SceneDrawing& scene) {
-  return std::max(options.from + 1e-3,
-                  std::min(options.to.value_or(scene.duration), scene.duration));
+/// Whether the error of a detection is larger in one direction, as a radar's is.
+bool is_elongated(const Eigen::Matrix2d& covariance) {
+  const double mean = 0.5 * covariance.trace();
+  return covariance.determinant() < 0.8 * mean * mean;
 }
+
+/// The 1-sigma ellipse of its error.
+void draw_ellipse(Canvas& canvas, const Stage& stage, const Detection& detection, const Ink& ink) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(detection.covariance);
+  const auto half_axis = [&](int i) {
+    const double reach = std::sqrt(std::max(0.0, solver.eigenvalues()[i])) * stage.view.scale();
+    const Vec2 direction = solver.eigenvectors().col(i);
+    return Pixel{reach * direction.x(), -reach * direction.y()};
+  };
+  canvas.outline(
+      ellipse_outline(stage.view.to_pixel(detection.position), half_axis(0), half_axis(1)), ink,
+      stage.style.length(1));
+}
+
+Style style_of(const VideoOptions& options) {
+  Style style = Style::of_picture(options.width, options.height);
+  style.text = options.text;
+  style.colors = options.theme == VideoTheme::kLight ? &kLight : &kDark;
+  return style;
+}
+
+/// Slow motion shows as much of the past as real time does; time lapse shows more.
+double trail_of(const VideoOptions& options) { return options.trail / std::min(1.0, options.slow); }
 
 Style style_of_panels(Style style, const SceneDrawing& scene) {
   if (scene.panels.size() > 1) style.unit *= kSmallUnit;
@@ -35,18 +58,23 @@ Style style_of_panels(Style style, const SceneDrawing& scene) {
 Picture::Picture(const VideoOptions& options, const SceneDrawing& scene)
     : options_(options),
       scene_(scene),
-      style_(Style::of_picture(options.width, options.height)),
+      style_(style_of(options)),
       panel_style_(style_of_panels(style_, scene)),
       legend_(options_, scene_, style_, panel_style_, fonts_),
       layout_(lay_out(options_, scene_, style_, legend_.height())),
       camera_(options_, scene_),
-      errors_(options.from, end_of(options, scene)),
+      past_(trail_of(options), scene.duration),
+      errors_(0.0, scene.duration),
       insets_(options.slow) {
   const bool compares = layout_.panels.size() > 1;
   for (std::size_t i = 0; i < layout_.panels.size(); ++i) {
-    const auto color = compares ? std::optional(panel_color(i)) : std::nullopt;
-    panels_.push_back(
-        {camera_.view(options.from, layout_.panels[i]), TrackMemory(color, options.slow), {}});
+    const TrackMemory::Manner manner{
+        .color = compares ? std::optional(style_.theme().track(static_cast<int>(i))) : std::nullopt,
+        .slow = options.slow,
+        .trail = trail_of(options),
+        .theme = &style_.theme()};
+    panels_.push_back({camera_.view(options.from, layout_.panels[i]),
+                       TrackMemory(manner, scene_.objects), {}});
   }
 }
 
@@ -56,6 +84,7 @@ Stage Picture::stage_of(const View& view) const {
 
 void Picture::remember(const VideoFrame& frame) {
   camera_.remember(frame.truth);
+  past_.remember(frame);
   std::vector<std::optional<double>> errors;
   for (std::size_t i = 0; i < panels_.size() && i < frame.panels.size(); ++i) {
     panels_[i].memory.remember(frame, frame.panels[i]);
@@ -75,19 +104,28 @@ void Picture::draw(const VideoFrame& frame, cv::Mat& image) {
   still_parts_.copyTo(image);
 
   Canvas canvas(image);
-  const std::optional<View> close_up = close_up_view(frame.truth);
+  std::optional<double> best;  // of the panels that have a score
+  for (const PanelFrame& panel : frame.panels) {
+    if (panel.gospa && (!best || *panel.gospa < *best)) best = panel.gospa;
+  }
   for (std::size_t i = 0; i < panels_.size() && i < frame.panels.size(); ++i) {
     const Stage stage = stage_of(still_views_[i]);
     Canvas part = canvas.within(layout_.panels[i]);
     draw_world(part, stage, frame, i);
     std::vector<Viewport> keep_out;
-    if (close_up) keep_out.push_back(close_up->viewport());
+    for (std::size_t k = 0; k < options_.close_ups.size(); ++k) {
+      if (close_up_view(frame.truth, k, i)) keep_out.push_back(layout_.close_ups[i][k]);
+    }
     panels_[i].labels.draw(part, stage, panels_[i].memory, frame, keep_out);
     if (panels_.size() > 1)
-      draw_header(canvas, layout_.headers[i], scene_.panels[i], frame.panels[i], panel_color(i),
-                  style_, fonts_);
+      draw_header(canvas, layout_.headers[i], scene_.panels[i], frame.panels[i],
+                  style_.theme().track(static_cast<int>(i)), frame.panels[i].gospa == best, style_,
+                  fonts_);
+    for (std::size_t k = 0; k < options_.close_ups.size(); ++k) {
+      const auto view = close_up_view(frame.truth, k, i);
+      if (view) draw_close_up(canvas, *view, frame, k, i);
+    }
   }
-  if (close_up) draw_close_up(canvas, *close_up, frame);
   if (panels_.size() > 1)
     errors_.draw(canvas, layout_.plots, style_, fonts_);
   else if (options_.layers.shows(Layer::kInsets))
@@ -100,7 +138,7 @@ void Picture::draw_still_parts(std::vector<View> views) {
   still_views_ = std::move(views);
   still_parts_.create(options_.height, options_.width, CV_8UC3);
   Canvas canvas(still_parts_);
-  canvas.fill(dark::kPage);
+  canvas.fill(style_.theme().page);
   for (const View& view : still_views_) {
     Canvas panel = canvas.within(view.viewport());
     draw_backdrop(panel, stage_of(view), AxisNumbers::kShown);
@@ -111,6 +149,7 @@ void Picture::draw_still_parts(std::vector<View> views) {
 void Picture::draw_world(Canvas& canvas, const Stage& stage, const VideoFrame& frame,
                          std::size_t panel) {
   if (stage.shows(Layer::kWind)) draw_wind(canvas, stage, frame.time);
+  past_.draw(canvas, stage);
   if (stage.shows(Layer::kTruth)) draw_truth(canvas, stage, frame.truth);
   draw_detections(canvas, stage, frame);
   draw_tracks(canvas, stage, panels_[panel].memory, frame, frame.panels[panel]);
@@ -128,54 +167,60 @@ void Picture::draw_detections(Canvas& canvas, const Stage& stage, const VideoFra
       const bool is_clutter =
           i < observation.origins.size() && observation.origins[i] == kClutterOrigin;
       if (is_clutter && shows_clutter)
-        canvas.disc(at, stage.style.length(2.5), {dark::kClutter, opacity});
-      if (!is_clutter && shows_detections)
-        canvas.cross(at, stage.style.length(5), {dark::kDetection, opacity},
-                     stage.style.length(1.5));
+        canvas.disc(at, stage.style.length(2.5), {style_.theme().clutter, opacity});
+      if (is_clutter || !shows_detections) continue;
+      const Detection& detection = observation.scan.detections[i];
+      draw_detection(canvas, observation.scan.sensor, at, stage.style.length(5),
+                     {style_.theme().detection, opacity}, stage.style.length(1.5));
+      if (is_elongated(detection.covariance)) {
+        draw_ellipse(canvas, stage, detection, {style_.theme().detection, 0.5 * opacity});
+      }
     }
   }
 }
 
-std::optional<View> Picture::close_up_view(const TruthSnapshot& truth) const {
-  if (!options_.close_up || panels_.size() > 1) return std::nullopt;
-  const Viewport& area = layout_.close_up;
+std::optional<View> Picture::close_up_view(const TruthSnapshot& truth, std::size_t close_up,
+                                           std::size_t panel) const {
+  const CloseUp& wanted = options_.close_ups[close_up];
+  const Viewport& area = layout_.close_ups[panel][close_up];
   for (const TruthState& object : truth.objects) {
-    if (object.id != options_.close_up->target || !object.position.allFinite()) continue;
-    const Vec2 half = 0.5 * options_.close_up->width * Vec2(1.0, area.height / area.width);
+    if (object.id != wanted.target || !object.position.allFinite()) continue;
+    const Vec2 half = 0.5 * wanted.width * Vec2(1.0, area.height / area.width);
     return View({object.position - half, object.position + half}, area);
   }
   return std::nullopt;
 }
 
-void Picture::draw_close_up(Canvas& canvas, const View& view, const VideoFrame& frame) {
+void Picture::draw_close_up(Canvas& canvas, const View& view, const VideoFrame& frame,
+                            std::size_t close_up, std::size_t panel) {
   const auto outline = [](const Viewport& box) {
     return std::vector<Pixel>{{box.left, box.top},
                               {box.right(), box.top},
                               {box.right(), box.bottom()},
                               {box.left, box.bottom()}};
   };
-  const View& whole = still_views_.front();
+  const View& whole = still_views_[panel];
   const Pixel from = whole.to_pixel({view.world().min.x(), view.world().max.y()});
   const Pixel to = whole.to_pixel({view.world().max.x(), view.world().min.y()});
-  Canvas panel = canvas.within(layout_.panels.front());
-  panel.outline(outline({from.x, from.y, to.x - from.x, to.y - from.y}), {dark::kMutedText, 0.8},
+  Canvas around = canvas.within(layout_.panels[panel]);
+  around.outline(outline({from.x, from.y, to.x - from.x, to.y - from.y}), {style_.theme().muted_text, 0.8},
                 style_.length(1));
 
   const Stage stage = stage_of(view);
   Canvas part = canvas.within(view.viewport());
   draw_backdrop(part, stage, AxisNumbers::kHidden);
-  draw_world(part, stage, frame, 0);
-  canvas.outline(outline(view.viewport()), dark::kMutedText, style_.length(1.5));
+  draw_world(part, stage, frame, panel);
+  canvas.outline(outline(view.viewport()), style_.theme().muted_text, style_.length(1.5));
   for (const ObjectInfo& object : scene_.objects) {
-    if (object.id != options_.close_up->target) continue;
-    const std::u32string caption = U"close-up: " + drawable(object.name, 24);
+    if (object.id != options_.close_ups[close_up].target) continue;
+    const std::u32string caption = drawable(object.name, 24) + U", near by";
     const int letters = style_.letters(13);
     const Viewport plate{view.viewport().left, view.viewport().top,
                          fonts_.regular.width(caption, letters) + style_.length(16),
                          style_.length(24)};
-    part.rectangle(plate, {dark::kPage, 0.7});
+    part.rectangle(plate, {style_.theme().page, 0.7});
     part.text(fonts_.regular, caption, letters,
-              {plate.left + style_.length(8), plate.top + style_.length(17)}, dark::kText);
+              {plate.left + style_.length(8), plate.top + style_.length(17)}, style_.theme().text);
   }
 }
 

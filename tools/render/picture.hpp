@@ -10,6 +10,7 @@
 #include "tools/render/inset_plots.hpp"
 #include "tools/render/layout.hpp"
 #include "tools/render/legend.hpp"
+#include "tools/render/scene_memory.hpp"
 #include "tools/render/stage.hpp"
 #include "tools/render/track_labels.hpp"
 #include "tools/render/track_memory.hpp"
@@ -42,8 +43,11 @@ class Picture {
   void draw_still_parts(std::vector<View> views);
   void draw_world(Canvas& canvas, const Stage& stage, const VideoFrame& frame, std::size_t panel);
   void draw_detections(Canvas& canvas, const Stage& stage, const VideoFrame& frame) const;
-  std::optional<View> close_up_view(const TruthSnapshot& truth) const;
-  void draw_close_up(Canvas& canvas, const View& view, const VideoFrame& frame);
+  /// What a close-up of a panel shows, if its target is there.
+  std::optional<View> close_up_view(const TruthSnapshot& truth, std::size_t close_up,
+                                    std::size_t panel) const;
+  void draw_close_up(Canvas& canvas, const View& view, const VideoFrame& frame,
+                     std::size_t close_up, std::size_t panel);
 
   VideoOptions options_;
   SceneDrawing scene_;
@@ -53,6 +57,7 @@ class Picture {
   Legend legend_;
   Layout layout_;
   Camera camera_;
+  SceneMemory past_;
   std::vector<Panel> panels_;
   cv::Mat still_parts_;            // what does not move, as long as the camera does not
   std::vector<View> still_views_;  // for which that was drawn

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/render/font.hpp"
+#include "tools/render/palette.hpp"
 
 namespace ghtrack::render {
 
@@ -13,17 +14,21 @@ struct Typefaces {
   Font bold{Font::Weight::kBold};
 };
 
-/// Sizes that grow with the picture: all are given for 1280 × 720 pixels.
+/// Colours, and sizes that grow with the picture: all are given for 1280 × 720 pixels.
 struct Style {
   double unit = 1.0;  // [px] of this picture per pixel of one with 1280 × 720
+  double text = 1.0;  // how much larger letters are than usual
+  const Theme* colors = &kDark;
 
   static Style of_picture(int width, int height) {
     return {std::max(0.5, std::min(width / 1280.0, height / 720.0))};
   }
 
+  const Theme& theme() const { return *colors; }
+
   double length(double pixels) const { return pixels * unit; }
   int letters(double pixels) const {
-    return std::max(7, static_cast<int>(std::lround(pixels * unit)));
+    return std::max(7, static_cast<int>(std::lround(pixels * unit * text)));
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "tools/render/backdrop.hpp"
 #include "tools/render/text.hpp"
@@ -34,18 +35,27 @@ class Captions {
     for (const auto& [id, trace] : memory.traces())
       if (trace.last.status != TrackStatus::kTentative)
         add(id, trace.label_position, trace.label, 16,
-            mix(memory.color_of(trace.last), dark::kDetection, 0.35));
+            mix(memory.color_of(trace.last), stage_.style.theme().detection, 0.35));
   }
 
   /// True objects; their ids are negative, so that they do not meet those of tracks.
-  void add_names(const TruthSnapshot& truth) {
+  /// Whom a track follows, its label names.
+  void add_names(const TruthSnapshot& truth, const TrackMemory& memory) {
+    std::unordered_set<ObjectId> labelled;
+    if (stage_.shows(Layer::kLabels)) {
+      for (const auto& [id, trace] : memory.traces()) {
+        if (trace.object && trace.last.status != TrackStatus::kTentative) {
+          labelled.insert(*trace.object);
+        }
+      }
+    }
     std::unordered_map<ObjectId, const ObjectInfo*> named;
     for (const ObjectInfo& info : stage_.scene.objects) named.emplace(info.id, &info);
     for (const TruthState& object : truth.objects) {
       const auto info = named.find(object.id);
-      if (info == named.end()) continue;
+      if (info == named.end() || labelled.contains(object.id)) continue;
       add(-1 - object.id, object.position, drawable(info->second->name, 24), 14,
-          dark::kMutedText);
+          stage_.style.theme().muted_text);
     }
   }
 
@@ -110,7 +120,7 @@ void draw_caption(Canvas& canvas, const Stage& stage, const Caption& caption,
         {anchor.x + share * (nearest.x - anchor.x), anchor.y + share * (nearest.y - anchor.y)},
         nearest, {caption.color, 0.6}, stage.style.length(1.2));
   }
-  canvas.rectangle(place, {dark::kWorld, kPlate});
+  canvas.rectangle(place, {stage.style.theme().world, kPlate});
   canvas.text(stage.fonts.regular, caption.text, caption.letters,
               {place.left + stage.style.length(4), place.bottom() - 0.32 * caption.letters},
               caption.color);
@@ -122,7 +132,7 @@ void TrackLabels::draw(Canvas& canvas, const Stage& stage, const TrackMemory& me
                        const VideoFrame& frame, const std::vector<Viewport>& keep_out) {
   Captions captions(stage);
   if (stage.shows(Layer::kLabels)) captions.add_tracks(memory);
-  if (stage.shows(Layer::kNames)) captions.add_names(frame.truth);
+  if (stage.shows(Layer::kNames)) captions.add_names(frame.truth, memory);
   std::vector<LabelRequest> requests;
   for (const Caption& caption : captions.all()) requests.push_back(caption.request);
   const double edge = stage.style.length(4);

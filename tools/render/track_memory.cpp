@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <tuple>
+#include <utility>
 
 #include "tools/render/text.hpp"
 
@@ -12,7 +13,6 @@ namespace ghtrack::render {
 namespace {
 
 // Seconds of those who watch.
-constexpr double kTrailSeconds = 3.0;
 constexpr double kEventSeconds = 1.2;
 constexpr double kLabelSeconds = 0.25;   // a speed can be read that long
 constexpr double kLabelInertia = 0.116;  // time constant of the place of a label
@@ -24,42 +24,65 @@ Vec2 predicted_position(const TrackEstimate& track, double ahead) {
 }
 
 Color TrackMemory::color_of(const TrackEstimate& track) const {
-  if (track.status == TrackStatus::kTentative) return dark::kTentative;
-  if (color_) return *color_;
+  const Theme& theme = *manner_.theme;
+  if (track.status == TrackStatus::kTentative) return theme.tentative;
+  if (manner_.color) return *manner_.color;
   const auto trace = traces_.find(track.id);
   const bool has_own = trace != traces_.end() && trace->second.color;
-  return has_own ? kTrackColors[*trace->second.color] : track_color(track.id);
+  return has_own ? theme.tracks[*trace->second.color] : theme.track(track.id - 1);
 }
 
 double TrackMemory::trail_age(double time) const {
-  // Slow motion shows as much of the past as real time does; time lapse shows more.
-  const double seconds = kTrailSeconds / std::min(1.0, slow_);
-  return std::clamp((now_.value_or(time) - time) / seconds, 0.0, 1.0);
+  const double seconds = std::max(manner_.trail, 1e-9);
+  return std::isfinite(seconds) ? std::clamp((now_.value_or(time) - time) / seconds, 0.0, 1.0)
+                                : 0.0;
 }
 
 double TrackMemory::event_age(double time) const {
-  return std::clamp((now_.value_or(time) - time) * slow_ / kEventSeconds, 0.0, 1.0);
+  return std::clamp((now_.value_or(time) - time) * manner_.slow / kEventSeconds, 0.0, 1.0);
 }
 
 /// Tracks that are alive together look different as long as there are colours.
 std::size_t TrackMemory::least_used_color() const {
-  std::array<int, kTrackColors.size()> uses{};
+  std::array<int, std::tuple_size_v<decltype(Theme::tracks)>> uses{};
   for (const auto& [id, trace] : traces_) {
     if (trace.color) ++uses[*trace.color];
   }
   return static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin());
 }
 
-std::u32string TrackMemory::label_text(const TrackEstimate& track) const {
-  char numbers[48];
-  const double speed = track.velocity.norm();
-  std::snprintf(numbers, sizeof numbers, " %.*f m/s", speed < 99.95 ? 1 : 0, speed);
-  std::u32string text = U"#";
-  text += drawable(std::to_string(track.id));
+std::u32string TrackMemory::name_of(const TrackEstimate& track) const {
+  const auto trace = traces_.find(track.id);
+  if (trace != traces_.end() && trace->second.object) {
+    for (const ObjectInfo& object : objects_) {
+      if (object.id == *trace->second.object) return drawable(object.name, 24);
+    }
+  }
+  return U"#" + drawable(std::to_string(track.id));
+}
+
+std::u32string TrackMemory::label_text(const Trace& trace) const {
+  const TrackEstimate& track = trace.last;
+  const std::u32string number = U"#" + drawable(std::to_string(track.id));
+  std::u32string text = number;
+  if (trace.object) text = name_of(track) + U" " + number;
+  if (manner_.color) return text;  // among several panels space is short
   const std::u32string label = drawable(track.label, 16);
-  if (!label.empty()) text += U" " + label;
-  if (color_) return text;  // among several panels space is short
-  return std::isfinite(speed) && speed < 1e6 ? text + U" " + drawable(numbers) : text;
+  if (!label.empty() && !trace.object) text += U" " + label;
+  const double speed = track.velocity.norm();
+  if (!(speed < 1e6)) return text;
+  return text + U" " + number_text(speed < 99.95 ? "%.1f m/s" : "%.0f m/s", speed);
+}
+
+/// No picture resolves more than so many points of a trail.
+void TrackMemory::thin(std::deque<std::pair<double, Vec2>>& trail) const {
+  constexpr std::size_t kMost = 1200;
+  if (trail.size() < kMost) return;
+  std::deque<std::pair<double, Vec2>> kept;
+  for (std::size_t i = 0; i < trail.size(); ++i) {
+    if (i % 2 == 0 || i + 1 == trail.size()) kept.push_back(trail[i]);
+  }
+  trail = std::move(kept);
 }
 
 void TrackMemory::take(const TrackSnapshot& tracks) {
@@ -69,38 +92,54 @@ void TrackMemory::take(const TrackSnapshot& tracks) {
   for (const TrackEstimate& track : tracks.tracks) {
     const auto [entry, is_new] = traces_.try_emplace(track.id);
     Trace& trace = entry->second;
-    const bool is_confirmed = track.status != TrackStatus::kTentative;
     if (is_new) trace.label_position = track.position;
-    if (!trace.color && is_confirmed) {
-      trace.color = least_used_color();
-      trace.label.clear();  // the speed is known by now
-    }
     trace.seen = true;
     trace.last = track;
     trace.trail.emplace_back(tracks.time, track.position);
+    thin(trace.trail);
   }
 }
 
-/// An object that one confirmed track followed before and another one follows now.
-void TrackMemory::note_switches(const PanelFrame& panel) {
+/// Whom tracks follow: it names and colours them. An object that one confirmed track followed before
+/// and another one follows now is a switch of identity.
+void TrackMemory::note_objects(const PanelFrame& panel) {
   for (const Pairing& pairing : panel.pairings) {
-    const auto [entry, is_new] = track_of_object_.try_emplace(pairing.object, pairing.track);
-    if (!is_new && entry->second == pairing.track) continue;
     const auto trace = traces_.find(pairing.track);
-    if (!is_new && trace != traces_.end())
+    if (trace == traces_.end()) continue;
+    if (trace->second.object != pairing.object) trace->second.label.clear();
+    trace->second.object = pairing.object;
+    const auto [entry, is_new] = track_of_object_.try_emplace(pairing.object, pairing.track);
+    if (entry->second == pairing.track) continue;
+    entry->second = pairing.track;
+    if (!is_new) {
       events_.push_back({Happening::kSwitch, snapshot_time_, trace->second.last.position,
                          color_of(trace->second.last)});
-    entry->second = pairing.track;
+    }
   }
+  for (auto& [id, trace] : traces_) {
+    if (trace.color || trace.last.status == TrackStatus::kTentative) continue;
+    trace.color = trace.object ? static_cast<std::size_t>(*trace.object) %
+                                     manner_.theme->tracks.size()
+                               : least_used_color();
+    trace.label.clear();  // the speed is known by now
+  }
+}
+
+/// Its trail stays until it has faded.
+void TrackMemory::end(const Trace& trace) {
+  if (trace.last.status == TrackStatus::kTentative) return;
+  const Color color = color_of(trace.last);
+  events_.push_back({Happening::kLost, snapshot_time_, trace.last.position, color});
+  past_.push_back({trace.trail, color});
 }
 
 void TrackMemory::update_label(Trace& trace, double now, double since) const {
   const double ahead = std::clamp(now - snapshot_time_, 0.0, 1.0);
   trace.label_position += since * trace.last.velocity;
-  const double gain = 1.0 - std::exp(-since * slow_ / kLabelInertia);
+  const double gain = 1.0 - std::exp(-since * manner_.slow / kLabelInertia);
   trace.label_position += gain * (predicted_position(trace.last, ahead) - trace.label_position);
-  if (!trace.label.empty() && (now - trace.label_time) * slow_ < kLabelSeconds) return;
-  trace.label = label_text(trace.last);
+  if (!trace.label.empty() && (now - trace.label_time) * manner_.slow < kLabelSeconds) return;
+  trace.label = label_text(trace);
   trace.label_time = now;
 }
 
@@ -109,11 +148,10 @@ void TrackMemory::remember(const VideoFrame& frame, const PanelFrame& panel) {
   now_ = frame.time;
   if (panel.tracks.time > snapshot_time_ || panel.tracks.sensor != snapshot_sensor_) {
     take(panel.tracks);
-    note_switches(panel);
-    for (const auto& [id, trace] : traces_)
-      if (!trace.seen && trace.last.status != TrackStatus::kTentative)
-        events_.push_back(
-            {Happening::kLost, snapshot_time_, trace.last.position, color_of(trace.last)});
+    note_objects(panel);
+    for (const auto& [id, trace] : traces_) {
+      if (!trace.seen) end(trace);
+    }
     std::erase_if(traces_, [](const auto& entry) { return !entry.second.seen; });
   }
   for (auto& [id, trace] : traces_) {
@@ -121,6 +159,12 @@ void TrackMemory::remember(const VideoFrame& frame, const PanelFrame& panel) {
       trace.trail.pop_front();
     update_label(trace, frame.time, since);
   }
+  for (Past& past : past_) {
+    while (!past.trail.empty() && trail_age(past.trail.front().first) >= 1.0) {
+      past.trail.pop_front();
+    }
+  }
+  std::erase_if(past_, [](const Past& past) { return past.trail.empty(); });
   std::erase_if(events_, [&](const Event& event) { return event_age(event.time) >= 1.0; });
 }
 

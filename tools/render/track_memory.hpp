@@ -26,6 +26,7 @@ class TrackMemory {
     std::u32string label;
     double label_time = 0.0;           // [s] when the label was written
     std::optional<std::size_t> color;  // index in the palette, from the confirmation on
+    std::optional<ObjectId> object;    // that it follows, or did last
     bool seen = false;                 // in the latest snapshot
   };
   enum class Happening { kLost, kSwitch };
@@ -36,17 +37,33 @@ class TrackMemory {
     Color color;
   };
 
-  /// @param color  of all tracks, when several trackers are compared; else each has its own
-  /// @param slow   video time per scene time: signs fade in the time of those who watch
-  explicit TrackMemory(std::optional<Color> color = std::nullopt, double slow = 1.0)
-      : color_(color), slow_(slow) {}
+  /// A trail of a track that has ended.
+  struct Past {
+    std::deque<std::pair<double, Vec2>> trail;  // [s], [m], oldest first
+    Color color;
+  };
+
+  /// How tracks are remembered.
+  struct Manner {
+    std::optional<Color> color;  // of all tracks, when several trackers are compared
+    double slow = 1.0;           // video time per scene time: signs fade for those who watch
+    double trail = 3.0;          // how far back trails reach [s]; may be infinite
+    const Theme* theme = &kDark;
+  };
+
+  /// @param objects  by whom labels are named and colours are chosen
+  TrackMemory(const Manner& manner, const std::vector<ObjectInfo>& objects)
+      : manner_(manner), objects_(objects) {}
 
   /// Takes note of a frame; once for each, in the order of time.
   void remember(const VideoFrame& frame, const PanelFrame& panel);
 
   const std::map<int, Trace>& traces() const { return traces_; }  // by track id
+  const std::vector<Past>& past() const { return past_; }  // of tracks that have ended
   const std::vector<Event>& events() const { return events_; }
   Color color_of(const TrackEstimate& track) const;
+  /// Whom it follows, or else its number.
+  std::u32string name_of(const TrackEstimate& track) const;
 
   /// How far something of that time has faded, from 0 to 1.
   double trail_age(double time) const;
@@ -54,15 +71,18 @@ class TrackMemory {
 
  private:
   void take(const TrackSnapshot& tracks);
-  void note_switches(const PanelFrame& panel);
+  void note_objects(const PanelFrame& panel);
+  void end(const Trace& trace);
   void update_label(Trace& trace, double now, double since) const;
   std::size_t least_used_color() const;
-  std::u32string label_text(const TrackEstimate& track) const;
+  std::u32string label_text(const Trace& trace) const;
+  void thin(std::deque<std::pair<double, Vec2>>& trail) const;
 
-  std::optional<Color> color_;
-  double slow_;
+  Manner manner_;
+  const std::vector<ObjectInfo>& objects_;
   std::map<int, Trace> traces_;
   std::map<ObjectId, int> track_of_object_;
+  std::vector<Past> past_;
   std::vector<Event> events_;
   double snapshot_time_ = -1.0;
   int snapshot_sensor_ = -1;

@@ -3,6 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <utility>
+#include <vector>
 
 namespace ghtrack::render {
 
@@ -18,15 +21,10 @@ class TrackPainter {
       : canvas_(canvas), stage_(stage), memory_(memory), ahead_(ahead) {}
 
   void trails() {
+    for (const TrackMemory::Past& past : memory_.past()) trail(past.trail, past.color);
     for (const auto& [id, trace] : memory_.traces()) {
       if (trace.last.status == TrackStatus::kTentative) continue;
-      std::vector<Pixel> points;
-      std::vector<double> opacities;
-      for (const auto& [time, position] : trace.trail) {
-        points.push_back(stage_.view.to_pixel(position));
-        opacities.push_back(0.75 * (1.0 - memory_.trail_age(time)));
-      }
-      canvas_.fading(points, opacities, memory_.color_of(trace.last), length(2));
+      trail(trace.trail, memory_.color_of(trace.last));
     }
   }
 
@@ -71,7 +69,7 @@ class TrackPainter {
     const double ring = length(is_tentative ? 6.0 : kEstimateRing);
     const double thickness = length(is_tentative ? 1.0 : 2.0);
     const Color color = memory_.color_of(track);
-    if (!is_tentative) canvas_.ring(at, ring, {dark::kWorld, 0.55}, thickness + length(2.0));
+    if (!is_tentative) canvas_.ring(at, ring, {stage_.style.theme().world, 0.55}, thickness + length(2.0));
     if (track.status != TrackStatus::kCoasting) return canvas_.ring(at, ring, color, thickness);
     std::vector<Pixel> outline = ellipse_outline(at, {ring, 0.0}, {0.0, ring});
     outline.push_back(outline.front());
@@ -85,13 +83,23 @@ class TrackPainter {
       if (event.what == TrackMemory::Happening::kLost)
         canvas_.cross(at, length(kEstimateRing), {event.color, 1.0 - age}, length(2));
       else
-        canvas_.ring(at, length(kEstimateRing + 3.0 + 13.0 * age), {dark::kDetection, 1.0 - age},
+        canvas_.ring(at, length(kEstimateRing + 3.0 + 13.0 * age), {stage_.style.theme().detection, 1.0 - age},
                      length(3));
     }
   }
 
  private:
   double length(double pixels) const { return stage_.style.length(pixels); }
+
+  void trail(const std::deque<std::pair<double, Vec2>>& trail, Color color) {
+    std::vector<Pixel> points;
+    std::vector<double> opacities;
+    for (const auto& [time, position] : trail) {
+      points.push_back(stage_.view.to_pixel(position));
+      opacities.push_back(0.85 * (1.0 - memory_.trail_age(time)));
+    }
+    canvas_.fading(points, opacities, color, length(2));
+  }
 
   Canvas& canvas_;
   const Stage& stage_;

@@ -26,15 +26,15 @@ void draw_box(Canvas& canvas, Pixel centre, const BodyPose& pose, const Outline&
     return Pixel{centre.x + a * along.x + b * across.x, centre.y + a * along.y + b * across.y};
   };
   const std::vector<Pixel> corners{corner(1, 1), corner(1, -1), corner(-1, -1), corner(-1, 1)};
-  canvas.polygon(corners, dark::kTruth);
-  canvas.outline(corners, dark::kTruthEdge, style.length(1));
+  canvas.polygon(corners, style.theme().truth);
+  canvas.outline(corners, style.theme().truth_edge, style.length(1));
 }
 
 void draw_disc(Canvas& canvas, Pixel centre, double radius, double angle, const Style& style) {
-  canvas.disc(centre, radius, dark::kTruth);
+  canvas.disc(centre, radius, style.theme().truth);
   const Pixel rim{centre.x + radius * std::cos(angle), centre.y - radius * std::sin(angle)};
-  canvas.line(centre, rim, dark::kTruthEdge, style.length(1.6));
-  canvas.ring(centre, radius, dark::kTruthEdge, style.length(1));
+  canvas.line(centre, rim, style.theme().truth_edge, style.length(1.6));
+  canvas.ring(centre, radius, style.theme().truth_edge, style.length(1));
 }
 
 void draw_balloon(Canvas& canvas, Pixel centre, double radius, const Style& style) {
@@ -43,16 +43,16 @@ void draw_balloon(Canvas& canvas, Pixel centre, double radius, const Style& styl
   std::vector<Pixel> string;
   for (int i = 0; i <= 8; ++i)
     string.push_back({knot.x + 0.14 * radius * std::sin(0.9 * i), knot.y + 0.28 * radius * i});
-  canvas.polyline(string, dark::kTruthEdge, style.length(1));
-  canvas.polygon(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), dark::kTruth);
-  canvas.outline(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), dark::kTruthEdge,
+  canvas.polyline(string, style.theme().truth_edge, style.length(1));
+  canvas.polygon(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), style.theme().truth);
+  canvas.outline(ellipse_outline(centre, {radius, 0.0}, {0.0, height}), style.theme().truth_edge,
                  style.length(1));
   canvas.polygon({{knot.x, knot.y - 0.1 * radius},
                   {knot.x - 0.22 * radius, knot.y + 0.25 * radius},
                   {knot.x + 0.22 * radius, knot.y + 0.25 * radius}},
-                 dark::kTruth);
+                 style.theme().truth);
   canvas.line({centre.x - 0.45 * radius, centre.y - 0.2 * radius},
-              {centre.x - 0.2 * radius, centre.y - 0.55 * radius}, dark::kTruthEdge,
+              {centre.x - 0.2 * radius, centre.y - 0.55 * radius}, style.theme().truth_edge,
               style.length(1.5));
 }
 
@@ -63,11 +63,11 @@ void draw_drone(Canvas& canvas, Pixel centre, double radius, double angle, const
                  centre.y - radius * (along * std::sin(angle) + up * std::cos(angle))};
   };
   const double thick = style.length(1.6);
-  canvas.polygon({at(-0.3, 0.12), at(0.3, 0.12), at(0.2, -0.35), at(-0.2, -0.35)}, dark::kTruth);
-  canvas.line(at(-0.65, 0.05), at(0.65, 0.05), dark::kTruthEdge, style.length(2));
+  canvas.polygon({at(-0.3, 0.12), at(0.3, 0.12), at(0.2, -0.35), at(-0.2, -0.35)}, style.theme().truth);
+  canvas.line(at(-0.65, 0.05), at(0.65, 0.05), style.theme().truth_edge, style.length(2));
   for (const double side : {-0.65, 0.65}) {
-    canvas.line(at(side, 0.05), at(side, 0.3), dark::kTruthEdge, thick);
-    canvas.line(at(side - 0.35, 0.3), at(side + 0.35, 0.3), dark::kTruthEdge, thick);
+    canvas.line(at(side, 0.05), at(side, 0.3), style.theme().truth_edge, thick);
+    canvas.line(at(side - 0.35, 0.3), at(side + 0.35, 0.3), style.theme().truth_edge, thick);
   }
 }
 

@@ -61,13 +61,27 @@ std::vector<double> frame_times(const VideoOptions& options, double duration) {
   return times;
 }
 
+std::vector<double> times_before(const VideoOptions& options) {
+  VideoOptions whole = options;
+  whole.from = 0.0;
+  std::vector<double> times;
+  const double step = 1.0 / (options.fps * options.slow);
+  for (std::size_t i = 0; frame_time(whole, i) < options.from - 1e-6 * step; ++i) {
+    if (static_cast<double>(i) > kMostFrames) break;
+    times.push_back(frame_time(whole, i));
+  }
+  return times;
+}
+
 void check_request(const VideoOptions& options) {
   check_side("width", options.width);
   check_side("height", options.height);
   check_range("fps", options.fps, 1.0, 240.0);
   check_range("slow", options.slow, 0.01, 1000.0);
   for (const Shot& shot : options.shots) check_range("a shot's width", shot.width, 0.1, 1e5);
-  if (options.close_up) check_range("the close-up's width", options.close_up->width, 0.1, 1e5);
+  for (const CloseUp& close_up : options.close_ups) {
+    check_range("a close-up's width", close_up.width, 1e-3, 1e5);
+  }
   if (is_picture_folder(options.path))
     check_picture_folder(options.path);
   else
@@ -84,6 +98,8 @@ VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 
 void VideoWriter::add_frame(const VideoFrame& frame) { sink_->add_frame(frame); }
+
+void VideoWriter::remember(const VideoFrame& frame) { sink_->remember(frame); }
 
 void VideoWriter::write_poster(const std::filesystem::path& path) {
   check_output_path(path, {"png"});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenes/schema/video_corner.hpp"
+#include "scenes/schema/video_theme.hpp"
 #include "sensors/observation.hpp"
 #include "sim/surface.hpp"
 #include "sim/truth.hpp"
@@ -64,7 +65,10 @@ struct VideoOptions {
   Encoder encoder = Encoder::kAutomatic;
   std::vector<Shot> shots;  // in the order of time; before the first the whole world is shown
   double glide = 1.5;       // [s] scene time that the camera takes from shot to shot
-  std::optional<CloseUp> close_up;
+  std::vector<CloseUp> close_ups;  // one above the other where they share a corner
+  double trail = 3.0;              // [s] scene time that paths, marks and trails reach back
+  VideoTheme theme = VideoTheme::kDark;
+  double text = 1.0;  // how much larger letters are than usual
 };
 
 /// A scene sensor, as far as it is drawn.
@@ -80,6 +84,12 @@ struct SensorDrawing {
 struct PanelDrawing {
   std::string name;   // such as "nimble"
   std::string gains;  // such as "g 0.8  h 0.3"
+};
+
+/// How well one kind of object has been followed so far.
+struct RegimeScore {
+  std::string regime;         // such as "ball"
+  std::optional<double> rmse;  // [m] of the positions; absent: nobody has been followed yet
 };
 
 /// What stays the same in every frame of a scene.
@@ -117,6 +127,7 @@ struct PanelFrame {
   std::vector<Pairing> pairings;  // of that snapshot
   std::optional<double> gospa;    // [m], running; shown if given
   std::optional<double> rmse;     // [m] of the positions, running; shown and plotted if given
+  std::vector<RegimeScore> regimes;  // the same for each kind of object, if there are several
 };
 
 /// What changes from frame to frame.
@@ -124,6 +135,7 @@ struct VideoFrame {
   double time = 0.0;                      // [s] scene time
   TruthSnapshot truth;                    // at this time
   std::vector<Observation> observations;  // the latest scan of every sensor that has reported
+  std::vector<Observation> arrived;       // all scans since the frame before
   std::vector<PanelFrame> panels;         // in the order of SceneDrawing::panels, at least one
   std::size_t scans = 0;                  // until now, of all sensors
 };
@@ -139,6 +151,10 @@ double frame_time(const VideoOptions& options, std::size_t index);
 /// Scene times of all frames [s].
 /// @throws RequestError as frame_count()
 std::vector<double> frame_times(const VideoOptions& options, double duration);
+
+/// Scene times of the frames that a video from the scene's start would show before `options.from`:
+/// what trails, labels and plots remember [s].
+std::vector<double> times_before(const VideoOptions& options);
 
 /// The smallest rectangle that holds these points and an extra margin of that share on each side.
 /// Points that are not finite are ignored. Absent if no point is left.
@@ -171,6 +187,9 @@ class VideoWriter {
   /// Frames must come in the order of time: trails, labels and plots remember.
   /// @throws OutputError if the frame cannot be written
   void add_frame(const VideoFrame& frame);
+
+  /// Takes note of a frame before the first that is shown.
+  void remember(const VideoFrame& frame);
 
   /// Writes the picture drawn last to a PNG file as well; its name obeys the same rules.
   void write_poster(const std::filesystem::path& path);

@@ -13,6 +13,7 @@ class VideoFile : public VideoSink {
       : file_(options), picture_(options, scene) {}
 
   void add_frame(const VideoFrame& frame) override { picture_.draw(frame, file_.next_image()); }
+  void remember(const VideoFrame& frame) override { picture_.remember(frame); }
   void write_poster(const std::filesystem::path& path) override { file_.write_poster(path); }
   void finish() override { file_.finish(); }
   void keep_partial() override { file_.keep_partial(); }

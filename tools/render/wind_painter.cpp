@@ -39,7 +39,7 @@ void draw_wind(Canvas& canvas, const Stage& stage, double time) {
       const double half = 0.5 * wind_arrow_length(speed, stage.scene, stage.style) / speed;
       const Pixel m = stage.view.to_pixel(place);
       canvas.arrow({m.x - half * wind.x(), m.y + half * wind.y()},
-                   {m.x + half * wind.x(), m.y - half * wind.y()}, head, dark::kWind,
+                   {m.x + half * wind.x(), m.y - half * wind.y()}, head, stage.style.theme().wind,
                    stage.style.length(1));
     }
 }

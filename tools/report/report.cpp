@@ -78,6 +78,13 @@ Json videos_of(const ReportOptions& options, std::size_t cell) {
   return videos;
 }
 
+Json page_of(const ReportOptions& options, std::size_t cell) {
+  for (const ReportPage& page : options.pages) {
+    if (page.cell == cell) return address_of(page.file);
+  }
+  return nullptr;
+}
+
 /// How many points the picture of a first run may spend on each filter, on the truth and on the
 /// detections, so that all pictures together stay within the size of the page.
 std::size_t points_per_kind(const Comparison& comparison) {
@@ -97,6 +104,7 @@ Json cells_of(const Comparison& comparison, const ReportOptions& options) {
                      {"sweep", report::in_words(cell.sweep)},
                      {"facts", facts_of(cell)},
                      {"videos", videos_of(options, i)},
+                     {"page", page_of(options, i)},
                      {"legend", report::filters_of(comparison, i)},
                      {"overlay", figure(report::overlay_figure(cell, most_points))},
                      {"regimes", regimes_of(comparison, cell)},

@@ -15,10 +15,17 @@ struct ReportVideo {
   std::string file;      // path relative to the report
 };
 
+/// A page on which the scene of a cell can be played with, to be linked to.
+struct ReportPage {
+  std::size_t cell = 0;  // in Comparison::cells
+  std::string file;      // path relative to the report
+};
+
 struct ReportOptions {
   std::string title = "Comparison of filters";
   std::string introduction = {};  // plain text under the title; may be empty
   std::vector<ReportVideo> videos = {};
+  std::vector<ReportPage> pages = {};
   bool playground = true;  // with sliders at the end, where they were built
 };
 

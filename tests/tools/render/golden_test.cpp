@@ -30,7 +30,8 @@ VideoOptions without_letters() {
   options.height = 360;
   options.layers.show(Layer::kFans);
   for (const Layer layer :
-       {Layer::kLabels, Layer::kNames, Layer::kHud, Layer::kLegend, Layer::kGrid})
+       {Layer::kFieldOfView, Layer::kLabels, Layer::kNames, Layer::kHud, Layer::kLegend,
+        Layer::kGrid})
     options.layers.hide(layer);
   return options;
 }

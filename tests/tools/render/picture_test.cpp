@@ -55,8 +55,8 @@ TEST(Picture, ShowsASmallBallInALargeWorldWhereItIs) {
   const Vec2 position(61.0, 43.0);
   const cv::Mat image = draw(options, scene, ball_at(position));
   const Pixel at = view_of(options, scene).to_pixel(position);
-  EXPECT_EQ(color_at(image, {at.x, at.y + 2.0}), dark::kTruth);
-  EXPECT_EQ(color_at(image, {at.x, at.y + 12.0}), dark::kWorld);
+  EXPECT_EQ(color_at(image, {at.x, at.y + 2.0}), kDark.truth);
+  EXPECT_EQ(color_at(image, {at.x, at.y + 12.0}), kDark.world);
 }
 
 /// A picture with something on every layer: the first track is lost in it, the last is tentative.
@@ -99,16 +99,16 @@ TEST(Picture, DrawsEstimatesThatAreAliveTogetherInDifferentColours) {
   track.status = TrackStatus::kConfirmed;
   track.position = track.prior_position = {120.0, 60.0};
   TrackEstimate other = track;
-  other.id = track.id + static_cast<int>(kTrackColors.size());
+  other.id = track.id + static_cast<int>(kDark.tracks.size());
   other.position = other.prior_position = {60.0, 30.0};
   frame.panels[0].tracks.tracks = {track, other};
   const cv::Mat image = draw(options, scene, frame);
   const View view = view_of(options, scene);
   const Pixel at = view.to_pixel(track.position);
   const Pixel other_at = view.to_pixel(other.position);
-  EXPECT_EQ(color_at(image, {at.x + 10.0, at.y}), kTrackColors[0]);
-  EXPECT_EQ(color_at(image, {at.x, at.y - 10.0}), kTrackColors[0]);
-  EXPECT_EQ(color_at(image, {other_at.x + 10.0, other_at.y}), kTrackColors[1]);
+  EXPECT_EQ(color_at(image, {at.x + 10.0, at.y}), kDark.tracks[0]);
+  EXPECT_EQ(color_at(image, {at.x, at.y - 10.0}), kDark.tracks[0]);
+  EXPECT_EQ(color_at(image, {other_at.x + 10.0, other_at.y}), kDark.tracks[1]);
 }
 
 // Derived: the wind is asked for above the ground only, at places that stand still in the world.
@@ -135,15 +135,15 @@ TEST(Picture, ShowsItsTargetInTheMiddleOfACloseUp) {
   SceneDrawing scene = one_ball();
   scene.objects[0].outline = {Outline::Shape::kDisc, 2.0, 2.0};
   for (const auto& [name, corner] : enum_names(VideoCorner{})) {
-    options.close_up = {.target = 0, .width = 10.0, .corner = corner};
+    options.close_ups = {{.target = 0, .width = 10.0, .corner = corner}};
     cv::Mat image;
     Picture picture(options, scene);
     picture.draw(ball_at({61.0, 43.0}), image);
-    const Viewport& area = picture.layout().close_up;
+    const Viewport& area = picture.layout().close_ups.at(0).at(0);
     const Pixel middle{area.left + 0.5 * area.width, area.top + 0.5 * area.height};
     const double scale = area.width / 10.0;
-    EXPECT_EQ(color_at(image, {middle.x, middle.y + 0.8 * scale}), dark::kTruth) << name;
-    EXPECT_EQ(color_at(image, {middle.x + 1.3 * scale, middle.y + 0.3 * scale}), dark::kWorld);
+    EXPECT_EQ(color_at(image, {middle.x, middle.y + 0.8 * scale}), kDark.truth) << name;
+    EXPECT_EQ(color_at(image, {middle.x + 1.3 * scale, middle.y + 0.3 * scale}), kDark.world);
   }
 }
 
@@ -192,6 +192,53 @@ TEST(Picture, IsAFunctionOfItsFrames) {
   EXPECT_GT(cv::norm(first, last_picture(21), cv::NORM_INF), 0.0);
 }
 
+// Derived: what was there a second ago is still marked where it was, and no longer after the trail.
+TEST(Picture, RemembersWhereThingsWereAsLongAsTheTrail) {
+  VideoOptions options;
+  options.trail = 2.0;
+  options.layers = Layers(std::array{Layer::kTrails, Layer::kDetections, Layer::kTruth});
+  SceneDrawing scene = one_ball();
+  scene.duration = 10.0;
+  const View view = view_of(options, scene);
+  const Vec2 detected(40.0, 20.0);
+  const auto brightest = [&](double until, const Vec2& place) {
+    Picture picture(options, scene);
+    cv::Mat image;
+    for (double t = 0.0; t <= until; t += 0.1) {
+      VideoFrame frame = ball_at({60.0 + 5.0 * t, 40.0});
+      frame.time = frame.truth.time = t;
+      if (t == 0.0) {
+        Detection detection;
+        detection.position = detected;
+        frame.arrived = {{.scan = {.time = 0.0, .sensor = 0, .detections = {detection}},
+                          .origins = {0}}};
+      }
+      picture.draw(frame, image);
+    }
+    const Pixel at = view.to_pixel(place);
+    int most = 0;
+    for (int dx = -6; dx <= 6; ++dx) {
+      most = std::max<int>(most, color_at(image, {at.x + dx, at.y}).green);
+    }
+    return most;
+  };
+  EXPECT_GT(brightest(1.0, detected), 2 * kDark.world.green);
+  EXPECT_GT(brightest(1.0, {62.0, 40.0}), 2 * kDark.world.green);
+  EXPECT_EQ(brightest(3.0, detected), kDark.world.green);
+  EXPECT_EQ(brightest(4.0, {62.0, 40.0}), kDark.world.green);
+}
+
+// Property: the light theme has a white ground and dark letters.
+TEST(Picture, ComesInColoursForPaper) {
+  VideoOptions options;
+  options.theme = VideoTheme::kLight;
+  const SceneDrawing scene = one_ball();
+  const cv::Mat image = draw(options, scene, ball_at({61.0, 43.0}));
+  const Pixel at = view_of(options, scene).to_pixel({61.0, 43.0});
+  EXPECT_EQ(color_at(image, {at.x, at.y + 12.0}), kLight.world);
+  EXPECT_EQ(color_at(image, {at.x, at.y + 2.0}), kLight.truth);
+}
+
 // Property: a followed object stays in the middle of the panel.
 TEST(Picture, KeepsAFollowedObjectInTheMiddle) {
   VideoOptions options;
@@ -201,7 +248,7 @@ TEST(Picture, KeepsAFollowedObjectInTheMiddle) {
   for (const double x : {10.0, 150.0}) {
     const cv::Mat image = draw(options, scene, ball_at({x, 33.3}));
     const Pixel middle{panel.left + 0.5 * panel.width, panel.top + 0.5 * panel.height};
-    EXPECT_EQ(color_at(image, {middle.x, middle.y + 2.0}), dark::kTruth);
+    EXPECT_EQ(color_at(image, {middle.x, middle.y + 2.0}), kDark.truth);
   }
 }
 
@@ -243,8 +290,8 @@ TEST(Plot, ShowsItsCurvesAndLeavesGaps) {
                  {"estimate", PlotSeries::Style::kEstimate, {0, 1, 2, 3}, {1, 3, 2, 5}, 0}};
   const cv::Mat image = draw_plot(plot);
   cv::Mat blue;
-  cv::inRange(image, cv::Scalar(kBlue.blue, kBlue.green, kBlue.red),
-              cv::Scalar(kBlue.blue, kBlue.green, kBlue.red), blue);
+  const cv::Scalar first_color(178, 114, 0);
+  cv::inRange(image, first_color, first_color, blue);
   EXPECT_GT(cv::countNonZero(blue), 500);
   plot.series[0].y = {kNan, kNan, kNan, kNan};
   plot.series[1].y = {1e300, -1e300, 7.0, std::numeric_limits<double>::infinity()};

@@ -173,6 +173,7 @@ VideoFrame SyntheticScene::next() {
     if (panel == 0) shown.gospa = 1.7;
     frame.panels.push_back(shown);
   }
+  frame.arrived.push_back(observation);
   frame.observations.push_back(std::move(observation));
   return frame;
 }
