@@ -29,9 +29,7 @@ constexpr std::size_t kMostScans = 200'000;  // that one evaluation goes through
 using Runs = std::vector<std::vector<LabelledObject>>;
 
 /// So many digits are printed, and so many are judged.
-double rounded(double value) {
-  return std::stod(fmt::format("{:.4g}", value));
-}
+double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
 /// {gh: {g: …, h: …}}
 FilterConfig config_of(const Gains& gains) {
@@ -41,8 +39,8 @@ FilterConfig config_of(const Gains& gains) {
   if (gains.order == 1) {
     return GhConfig{.design = gain_design::Manual<1>{rounded(gains.g), rounded(gains.h), 0.0}};
   }
-  return GhkConfig{.design = gain_design::Manual<2>{rounded(gains.g), rounded(gains.h),
-                                                    rounded(gains.k)}};
+  return GhkConfig{
+      .design = gain_design::Manual<2>{rounded(gains.g), rounded(gains.h), rounded(gains.k)}};
 }
 
 /// {gh: {design: tracking-index, process_noise: …}}
@@ -127,7 +125,8 @@ class RegimeTuner {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       tuned.judged.push_back(judge(candidates[i], rmse[i], rmse[tuned.recommended]));
     }
-    tuned.best = steady_gains(candidates[tuned.recommended].design.filter_for(regime_, 0));
+    tuned.best =
+        steady_gains(candidates[tuned.recommended].design.filter_for(regime_, 0)).value_or(Gains{});
     return tuned;
   }
 
@@ -208,14 +207,13 @@ class RegimeTuner {
     for (const int order : options_.orders) {
       const GainFamily family =
           options_.rule ? *gains_of_rule(*options_.rule, order) : stable_gains(order);
-      const FoundGains found = least_cost(
-          family, [&](const Gains& gains) { return training_cost(config_of(gains)); });
+      const FoundGains found =
+          least_cost(family, [&](const Gains& gains) { return training_cost(config_of(gains)); });
       add("tuned", config_of(found.gains), candidates);
     }
     if (options_.rule || options_.orders.size() < 2) return;
-    const FoundNumber g = least_cost_of_number(1e-3, 1.5, 9, 6, [&](double at) {
-      return training_cost(config_of(Gains::of_g(at)));
-    });
+    const FoundNumber g = least_cost_of_number(
+        1e-3, 1.5, 9, 6, [&](double at) { return training_cost(config_of(Gains::of_g(at))); });
     add("tuned", config_of(Gains::of_g(g.at)), candidates);
     add_tuned_noise(tracking_index_config<1>, 1, candidates);
     add_tuned_noise(tracking_index_config<2>, 2, candidates);
@@ -227,11 +225,11 @@ class RegimeTuner {
   /// Filters with the best process noise, over tracking indices from 10^-4 to 100.
   void add_tuned_noise(FilterConfig (*config)(double), int order,
                        std::vector<Candidate>& candidates) const {
-    const double unit = intensity_of_index(ProcessModel::kPiecewiseConstant, 1.0, sensor_.sigma,
-                                           sensor_.period);
-    const FoundNumber noise = least_cost_of_number(
-        1e-4 * unit, 1e2 * unit, order == 1 ? 10 : 8, 6,
-        [&](double at) { return training_cost(config(at)); });
+    const double unit =
+        intensity_of_index(ProcessModel::kPiecewiseConstant, 1.0, sensor_.sigma, sensor_.period);
+    const FoundNumber noise =
+        least_cost_of_number(1e-4 * unit, 1e2 * unit, order == 1 ? 10 : 8, 6,
+                             [&](double at) { return training_cost(config(at)); });
     add("tuned", config(noise.at), candidates);
   }
 
@@ -257,8 +255,8 @@ class RegimeTuner {
     }
   }
 
-  /// The least error in judging. The scene's own filter, the first one, stays unless the best one is
-  /// better by more than the interval of their difference.
+  /// The least error in judging. The scene's own filter, the first one, stays unless the best one
+  /// is better by more than the interval of their difference.
   std::size_t recommended(const std::vector<Candidate>& candidates,
                           const std::vector<std::vector<double>>& rmse) const {
     std::size_t best = 0;

@@ -44,8 +44,11 @@ Contender contender_of(const TrackerConfig& config, const std::vector<SensorConf
 /// Writes down what a run says.
 class Laboratory::Notes final : public RunObserver {
  public:
-  explicit Notes(Laboratory& lab)
-      : lab_(lab), following_(lab.contenders_.size(), Following(lab.truth_->objects.size())) {
+  explicit Notes(Laboratory& lab) : lab_(lab) {
+    for (const Contender& contender : lab.contenders_) {
+      following_.emplace_back(lab.truth_->objects.size(),
+                              FilterTheory{contender.tracker.design(), lab.scene_.sensors});
+    }
     lab_.answers_.assign(lab.contenders_.size(), {});
     lab_.scans_.clear();
     lab_.detections_.clear();

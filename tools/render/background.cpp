@@ -57,7 +57,7 @@ class Ground : public Background {
   const BackgroundInfo& info() const override { return info_; }
   bool next(cv::Mat& image) override {
     image.create(info_.height, info_.width, CV_8UC3);
-    image = cv::Scalar(dark::kWorld.blue, dark::kWorld.green, dark::kWorld.red);
+    image = cv::Scalar(kDark.world.blue, kDark.world.green, kDark.world.red);
     return true;
   }
 

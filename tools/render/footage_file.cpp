@@ -70,15 +70,15 @@ class FootagePainter {
 
   void draw_detection(Canvas& canvas, const FootageDetection& detection) const {
     if (detection.size) {
-      canvas.outline(corners(detection.position, *detection.size), {dark::kDetection, 0.55},
+      canvas.outline(corners(detection.position, *detection.size), {kDark.detection, 0.55},
                      length(1.0));
       return;
     }
     if (detection.is_past) {
-      return canvas.disc(detection.position, length(2.2), {dark::kDetection, 0.35});
+      return canvas.disc(detection.position, length(2.2), {kDark.detection, 0.35});
     }
-    canvas.disc(detection.position, length(4.5), {dark::kPage, 0.5});
-    canvas.disc(detection.position, length(3.0), dark::kDetection);
+    canvas.disc(detection.position, length(4.5), {kDark.page, 0.5});
+    canvas.disc(detection.position, length(3.0), kDark.detection);
   }
 
   void draw_trail(Canvas& canvas, const FootageTrack& track, double now) const {
@@ -89,18 +89,18 @@ class FootagePainter {
       opacities.push_back(0.9 * (1.0 - (now - time) / trail_));
       rim.push_back(0.4 * opacities.back());
     }
-    canvas.fading(points, rim, dark::kPage, length(5));
-    canvas.fading(points, opacities, track_color(track.id), length(2.6));
+    canvas.fading(points, rim, kDark.page, length(5));
+    canvas.fading(points, opacities, kDark.track(track.id), length(2.6));
   }
 
   void draw_track(Canvas& canvas, const FootageTrack& track) const {
-    const Color color = track_color(track.id);
+    const Color color = kDark.track(track.id);
     const double thickness = length(2.2);
     if (track.residual) draw_residual(canvas, track.residual->first, track.residual->second, color);
     std::vector<Pixel> outline =
         track.size ? corners(track.position, *track.size)
                    : ellipse_outline(track.position, {length(kRing), 0.0}, {0.0, length(kRing)});
-    canvas.outline(outline, {dark::kPage, 0.55}, thickness + length(2.0));
+    canvas.outline(outline, {kDark.page, 0.55}, thickness + length(2.0));
     if (!track.coasting) return canvas.outline(outline, color, thickness);
     outline.push_back(outline.front());
     canvas.dashed(outline, color, length(7), length(5), thickness);
@@ -108,7 +108,7 @@ class FootagePainter {
 
   /// From where the track was expected to where it was seen.
   void draw_residual(Canvas& canvas, const Pixel& from, const Pixel& to, Color color) const {
-    canvas.line(from, to, {dark::kPage, 0.5}, length(3.5));
+    canvas.line(from, to, {kDark.page, 0.5}, length(3.5));
     canvas.arrow(from, to, length(7), color, length(1.5));
   }
 
@@ -138,11 +138,11 @@ class FootagePainter {
                                       {edge, edge, width - 2.0 * edge, height - 2.0 * edge});
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i]) continue;
-      const Color color = track_color(tracks[i]->id);
-      canvas.rectangle(*places[i], {dark::kPage, kPlate});
+      const Color color = kDark.track(tracks[i]->id);
+      canvas.rectangle(*places[i], {kDark.page, kPlate});
       canvas.text(fonts_.bold, texts[i], letters,
                   {places[i]->left + length(4), places[i]->bottom() - 0.34 * letters},
-                  mix(color, dark::kDetection, 0.35));
+                  mix(color, kDark.detection, 0.35));
     }
   }
 
@@ -153,9 +153,9 @@ class FootagePainter {
     const double margin = length(10);
     const Viewport plate{margin, height - margin - 1.6 * letters,
                          fonts_.regular.width(text, letters) + length(16), 1.6 * letters};
-    canvas.rectangle(plate, {dark::kPage, 0.7});
+    canvas.rectangle(plate, {kDark.page, 0.7});
     canvas.text(fonts_.regular, text, letters,
-                {plate.left + length(8), plate.bottom() - 0.45 * letters}, dark::kText);
+                {plate.left + length(8), plate.bottom() - 0.45 * letters}, kDark.text);
   }
 
   Style style_;

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "scenes/schema/reader.hpp"
+#include "tests/tools/experiment/sample_campaign.hpp"
 #include "tools/experiment/comparison.hpp"
 #include "tools/experiment/engine.hpp"
 
@@ -42,13 +43,7 @@ compare:
 )" + more;
   const Campaign campaign{
       {{std::get<WorldScene>(read_scene_text(text, "predicted.yaml")), "predicted.yaml", ""}}};
-  Results results(campaign);
-  compute(
-      campaign, Shard{}, results, 2, [] {},
-      [&](std::size_t cell, int run, std::vector<double> scores) {
-        results.put(cell, run, std::move(scores));
-      });
-  return compare(campaign, results, 2);
+  return compare(campaign, testing::all_results(campaign, 2), 2);
 }
 
 /// Whether what is predicted lies within 2 % of what is measured, or within one and a half of its

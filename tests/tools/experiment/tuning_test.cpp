@@ -89,7 +89,7 @@ TEST(SceneFragment, CanBePasted) {
       fragment;
   const Scene pasted = read_scene_text(text, "pasted.yaml");
   const FilterConfig& filter = std::get<WorldScene>(pasted).tracker.filters.at("ball");
-  const Gains gains = steady_gains(make_filter(filter, tuning.sigma, tuning.period));
+  const Gains gains = *steady_gains(make_filter(filter, tuning.sigma, tuning.period));
   EXPECT_NEAR(gains.g, tuning.regimes[0].best.g, 1e-9);
   EXPECT_NEAR(gains.k, tuning.regimes[0].best.k, 1e-9);
   EXPECT_THAT(to_table(tuning), HasSubstr("tuned"));

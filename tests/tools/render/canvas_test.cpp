@@ -91,6 +91,7 @@ TEST(Canvas, DrawsNothingThatIsNotFiniteOrOutOfSight) {
 // Property: a part of a canvas keeps the picture's coordinates and is not left.
 TEST(Canvas, KeepsAPartsDrawingInsideThePart) {
   cv::Mat image = blank();
+  constexpr Color kVermillion{213, 94, 0};
   Canvas part = Canvas(image).within({20.0, 10.0, 30.0, 40.0});
   part.fill(kWhite);
   part.line({0.0, 30.0}, {99.0, 30.0}, kVermillion, 3.0);

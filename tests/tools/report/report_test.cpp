@@ -98,7 +98,8 @@ TEST(Report, ShowsTunedGains) {
                                               .rmse = 0.22,
                                               .ci95 = Interval{0.21, 0.23},
                                               .difference = 0.0,
-                                              .difference_ci95 = std::nullopt}}}},
+                                              .difference_ci95 = std::nullopt,
+                                              .text = "train: {gh: {g: 0.25, h: 0.03}}"}}}},
                      .surfaces = {surface}});
   EXPECT_THAT(html, HasSubstr("<td class=\"number\">0.22</td><td>0.21 to 0.23</td>"));
   EXPECT_THAT(html, HasSubstr("train: {gh: {g: 0.25, h: 0.03}}"));
