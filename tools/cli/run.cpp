@@ -41,7 +41,6 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Beyond, what is said in hindsight would take longer than the run, and is not said.
-constexpr std::size_t kMostHindsightScans = 20'000;
 
 std::vector<std::string> sensor_names(const WorldScene& scene) {
   std::vector<std::string> names;
@@ -93,18 +92,6 @@ void write_plots(const fs::path& folder, const RunMetricsOptions& scoring,
                                                .title = title,
                                                .reading = {}});
   plot::write_figure(folder / "plots.svg", figure, {});
-}
-
-/// What each object's error may be held against.
-void add_hindsight(RunReport& report, const std::vector<LabelledObject>& objects,
-                   const WorldScene& scene) {
-  in_parallel(objects.size(), 2, [&](std::size_t i) {
-    const Hindsight found =
-        in_hindsight({&objects[i]}, scene.sensors, report.options, stop_if_interrupted);
-    ObjectReport& object = report.objects[static_cast<std::size_t>(objects[i].id)];
-    object.best_fixed_gains = found.best_fixed_gains;
-    object.smoother = found.smoother;
-  });
 }
 
 /// A scene on its way to files: its truth, its sensors, who follows, and who listens. All files
@@ -167,7 +154,9 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunReport report = metrics.report();
   report.counts = counts.front();
-  if (labelled.is_complete()) add_hindsight(report, std::move(labelled).objects(), scene);
+  if (labelled.is_complete()) 
+    add_hindsight(report, std::move(labelled).objects(), scene.sensors, stop_if_interrupted);
+  
   if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   AtomicFile scores(folder / "metrics.json");

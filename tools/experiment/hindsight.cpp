@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "tools/experiment/engine.hpp"
 #include "tools/experiment/gain_search.hpp"
 #include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/axis_covariance.hpp"
@@ -164,6 +165,16 @@ Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfi
           .cost);
   if (std::isfinite(least)) found.smoother = least;
   return found;
+}
+
+void add_hindsight(RunReport& report, const std::vector<LabelledObject>& objects,
+                   std::span<const SensorConfig> sensors, const std::function<void()>& on_step) {
+  in_parallel(objects.size(), 2, [&](std::size_t i) {
+    const Hindsight found = in_hindsight({&objects[i]}, sensors, report.options, on_step);
+    ObjectReport& object = report.objects[static_cast<std::size_t>(objects[i].id)];
+    object.best_fixed_gains = found.best_fixed_gains;
+    object.smoother = found.smoother;
+  });
 }
 
 }  // namespace ghtrack

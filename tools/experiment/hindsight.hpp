@@ -35,4 +35,12 @@ using ObjectsOfRuns = std::vector<const LabelledObject*>;
 Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
                        const RunMetricsOptions& scoring, const std::function<void()>& on_step);
 
+/// Beyond so many scans of all objects a run goes without.
+inline constexpr std::size_t kMostHindsightScans = 20'000;
+
+/// Writes into the report of a run what each object's error may be held against.
+/// @param objects  of the run
+void add_hindsight(RunReport& report, const std::vector<LabelledObject>& objects,
+                   std::span<const SensorConfig> sensors, const std::function<void()>& on_step);
+
 }  // namespace ghtrack

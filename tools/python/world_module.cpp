@@ -17,6 +17,7 @@
 
 #include "scenes/schema/reader.hpp"
 #include "tools/data/words.hpp"
+#include "tools/experiment/hindsight.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/run/contender.hpp"
 #include "tools/run/run.hpp"
@@ -183,11 +184,18 @@ py::object run_scene(const std::string& text, const std::string& name,
     if (scene != nullptr) {
       SimulatedTruth truth([scene] { return make_world(*scene); });
       columns.emplace(*scene, truth.objects());
-      RunMetrics metrics(truth.objects(), scoring_for(traits_of(scene->sensors)));
       const std::vector<Contender> contenders = {own_tracker(*scene)};
-      const auto counts = run(*scene, truth, contenders, {&*columns, &metrics});
+      RunMetrics metrics(truth.objects(), scoring_for(traits_of(scene->sensors)), 0,
+                         FilterTheory{contenders.front().tracker.design(), scene->sensors});
+      std::vector<ObjectId> everyone;
+      for (const ObjectInfo& object : truth.objects()) everyone.push_back(object.id);
+      LabelledObjectRecorder labelled(everyone.size(), everyone, kMostHindsightScans);
+      const auto counts = run(*scene, truth, contenders, {&*columns, &metrics, &labelled});
       report = metrics.report();
       report.counts = counts.front();
+      if (labelled.is_complete()) {
+        add_hindsight(report, std::move(labelled).objects(), scene->sensors, [] {});
+      }
     }
   }
   if (!columns) return py::none();

@@ -83,6 +83,13 @@ Stage Picture::stage_of(const View& view) const {
 }
 
 void Picture::remember(const VideoFrame& frame) {
+  take_note_of(frame);
+  for (std::size_t i = 0; i < panels_.size() && i < frame.panels.size(); ++i) {
+    write_labels(nullptr, stage_of(camera_.view(frame.time, layout_.panels[i])), frame, i);
+  }
+}
+
+void Picture::take_note_of(const VideoFrame& frame) {
   camera_.remember(frame.truth);
   past_.remember(frame);
   std::vector<std::optional<double>> errors;
@@ -96,8 +103,18 @@ void Picture::remember(const VideoFrame& frame) {
     insets_.remember(frame, frame.panels.front(), panels_.front().memory);
 }
 
+/// Around what is drawn above the panel.
+void Picture::write_labels(Canvas* canvas, const Stage& stage, const VideoFrame& frame,
+                           std::size_t panel) {
+  std::vector<Viewport> keep_out;
+  for (std::size_t k = 0; k < options_.close_ups.size(); ++k) {
+    if (close_up_view(frame.truth, k, panel)) keep_out.push_back(layout_.close_ups[panel][k]);
+  }
+  panels_[panel].labels.draw(canvas, stage, panels_[panel].memory, frame, keep_out);
+}
+
 void Picture::draw(const VideoFrame& frame, cv::Mat& image) {
-  remember(frame);
+  take_note_of(frame);
   std::vector<View> views;
   for (const Viewport& panel : layout_.panels) views.push_back(camera_.view(frame.time, panel));
   if (still_parts_.empty() || views != still_views_) draw_still_parts(std::move(views));
@@ -112,11 +129,7 @@ void Picture::draw(const VideoFrame& frame, cv::Mat& image) {
     const Stage stage = stage_of(still_views_[i]);
     Canvas part = canvas.within(layout_.panels[i]);
     draw_world(part, stage, frame, i);
-    std::vector<Viewport> keep_out;
-    for (std::size_t k = 0; k < options_.close_ups.size(); ++k) {
-      if (close_up_view(frame.truth, k, i)) keep_out.push_back(layout_.close_ups[i][k]);
-    }
-    panels_[i].labels.draw(part, stage, panels_[i].memory, frame, keep_out);
+    write_labels(&part, stage, frame, i);
     if (panels_.size() > 1)
       draw_header(canvas, layout_.headers[i], scene_.panels[i], frame.panels[i],
                   style_.theme().track(static_cast<int>(i)), frame.panels[i].gospa == best, style_,

@@ -40,6 +40,8 @@ class Picture {
     TrackLabels labels;
   };
   Stage stage_of(const View& view) const;
+  void take_note_of(const VideoFrame& frame);
+  void write_labels(Canvas* canvas, const Stage& stage, const VideoFrame& frame, std::size_t panel);
   void draw_still_parts(std::vector<View> views);
   void draw_world(Canvas& canvas, const Stage& stage, const VideoFrame& frame, std::size_t panel);
   void draw_detections(Canvas& canvas, const Stage& stage, const VideoFrame& frame) const;

@@ -128,7 +128,7 @@ void draw_caption(Canvas& canvas, const Stage& stage, const Caption& caption,
 
 }  // namespace
 
-void TrackLabels::draw(Canvas& canvas, const Stage& stage, const TrackMemory& memory,
+void TrackLabels::draw(Canvas* canvas, const Stage& stage, const TrackMemory& memory,
                        const VideoFrame& frame, const std::vector<Viewport>& keep_out) {
   Captions captions(stage);
   if (stage.shows(Layer::kLabels)) captions.add_tracks(memory);
@@ -141,8 +141,9 @@ void TrackLabels::draw(Canvas& canvas, const Stage& stage, const TrackMemory& me
                         area.height - 2.0 * edge};
   const auto places =
       layout_.place(requests, obstacles_of(stage, memory, frame, captions.all(), keep_out), inside);
+  if (canvas == nullptr) return;
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (places[i]) draw_caption(canvas, stage, captions.all()[i], *places[i]);
+    if (places[i]) draw_caption(*canvas, stage, captions.all()[i], *places[i]);
 }
 
 }  // namespace ghtrack::render

@@ -93,7 +93,8 @@ TEST(Laboratory, SaysWhatTheRunSays) {
   SimulatedTruth truth([&] { return make_world(scene); });
   const std::vector<Contender> contenders = {own_tracker(scene)};
   Heard heard;
-  RunMetrics metrics(truth.objects(), scoring_for(traits_of(scene.sensors)));
+  RunMetrics metrics(truth.objects(), scoring_for(traits_of(scene.sensors)), 0,
+                     FilterTheory{contenders.front().tracker.design(), scene.sensors});
   const auto counts = run(scene, truth, contenders, {&heard, &metrics});
 
   const Answer& answer = laboratory.answers().front();
