@@ -76,16 +76,6 @@ TEST(Prediction, HoldsWithMissesSeveralSensorsAndBias) {
       "{name: far, rate: 3, phase: 0.037, noise: 2}]"));
 }
 
-// Property: and with heavy tails, with outliers, and with range and bearing.
-TEST(Prediction, HoldsWithHeavyTailsAndRadar) {
-  expect_predicted(compared(
-      "[{name: cam, rate: 10, noise: 0.5, student_dof: 5, outlier_probability: 0.02, "
-      "outlier_scale: 4}]"));
-  expect_predicted(compared(
-      "[{name: radar, rate: 10, site: [0, -200], kind: radar, sigma_range: 1, sigma_bearing_deg: "
-      "0.3}]"));
-}
-
 // Property: errors without a variance have no prediction.
 TEST(Prediction, IsAbsentWhereItCannotBeKnown) {
   for (const ComparisonRow& row :

@@ -99,6 +99,10 @@ class Page(unittest.TestCase):
         if isinstance(wanted, dict):
             self.assertEqual(said.keys(), wanted.keys(), path)
             for key in wanted:
+                # What hindsight would have done is not computed on the page.
+                if key in ("best_fixed_gains", "smoother"):
+                    self.assertIsNone(said[key])
+                    continue
                 self.expect_metrics(said[key], wanted[key], f"{path}.{key}")
         elif isinstance(wanted, list):
             self.assertEqual(len(said), len(wanted), path)
