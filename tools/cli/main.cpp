@@ -160,8 +160,10 @@ void add_run(CLI::App& app, RunOptions& options) {
   CLI::App& command = *app.add_subcommand("run", "Simulate, sense, track and score a scene");
   add_scene_options(command, options.scene, true);
   command.add_option("-o,--output", options.output, "folder (default: out/<scene name>)");
-  command.add_flag("--video,!--no-video", options.video,
-                   "write video.mp4, whatever the scene says");
+  command.add_flag_callback(
+      "--video", [&options] { options.video = true; }, "write video.mp4, whatever the scene says");
+  command.add_flag_callback(
+      "--no-video", [&options] { options.video = false; }, "write none");
   add_look(command, options.look);
   command.add_flag("--compare", options.compare,
                    "let the video show the filters under compare, side by side on the same run");
