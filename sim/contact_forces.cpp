@@ -7,11 +7,7 @@
 namespace ghtrack {
 namespace {
 
-// At most: a column of n needs about n² sweeps, a light body between heavy ones as many as the ratio
-// of their masses.
-constexpr std::size_t kSweepsPerTouch = 400;
-constexpr std::size_t kMostSweeps = 2000;
-constexpr std::size_t kPatience = 100;
+constexpr int kPatience = 100;    // sweeps in which the change must halve
 constexpr double kExact = 1e-11;  // of the largest rate
 
 /// One touch at work on its bodies.
@@ -81,7 +77,7 @@ class Row {
 
 }  // namespace
 
-void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
+void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps) {
   double largest = 1e-300;
   for (const Pushed& body : bodies) {
     largest = std::max({largest, body.rate.norm(), std::abs(body.spin_rate) * body.radius});
@@ -92,9 +88,8 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
     rows.emplace_back(bodies, touch).apply(touch.push, touch.grip, touch.couple);
   }
   // Up and down in turn: what leans on what is not known.
-  const std::size_t most = std::min(kSweepsPerTouch * (touches.size() + 1), kMostSweeps);
   double earlier = std::numeric_limits<double>::infinity();  // change, kPatience sweeps ago
-  for (std::size_t sweep = 0; sweep < most; ++sweep) {
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     double change = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       change = std::max(change, rows[sweep % 2 == 0 ? i : rows.size() - 1 - i].improve());

@@ -19,19 +19,19 @@ struct Pushed {
 
 /// A touch of two bodies, or of one with something that does not give way.
 struct Touch {
-  int one = 0;                   // index of a body
-  int other = -1;                // of another one; −1: does not give way
-  Vec2 normal = Vec2::UnitY();   // from the other to the one
+  int one = 0;                  // index of a body
+  int other = -1;               // of another one; −1: does not give way
+  Vec2 normal = Vec2::UnitY();  // from the other to the one
   double friction = 0.0;
-  double rolling = 0.0;          // coefficient of rolling resistance
-  double direction = 0.0;        // of the one's spin: −1, +1; 0: it does not turn
-  double normal_offset = 0.0;    // added to the rate at which the two part
-  double slip_offset = 0.0;      // added to the rate of slip
-  double slip = 0.0;             // sign of the slip that there is: grip does not drive it on
-  bool holds = false;            // keeps the two from parting, too
-  double push = 0.0;             // along the normal, ≥ 0 unless it holds; a first guess before
-  double grip = 0.0;             // along the surface, towards tangent_to(normal)
-  double couple = 0.0;           // of rolling resistance
+  double rolling = 0.0;        // coefficient of rolling resistance
+  double direction = 0.0;      // of the one's spin: −1, +1; 0: it does not turn
+  double normal_offset = 0.0;  // added to the rate at which the two part
+  double slip_offset = 0.0;    // added to the rate of slip
+  double slip = 0.0;           // sign of the slip that there is: grip does not drive it on
+  bool holds = false;          // keeps the two from parting, too
+  double push = 0.0;           // along the normal, ≥ 0 unless it holds; a first guess before
+  double grip = 0.0;           // along the surface, towards tangent_to(normal)
+  double couple = 0.0;         // of rolling resistance
 };
 
 /// The grip between these bounds that is nearest to a wanted one and, where there is slip, does not
@@ -53,7 +53,9 @@ inline Vec2 tangent_to(const Vec2& normal) { return {normal.y(), -normal.x()}; }
 /// push that holds against turning:
 ///   0 ≤ push ⟂ parting + normal_offset ≥ 0
 /// by projected Gauss–Seidel iteration (Jourdan, Alart & Jean 1998), until nothing changes by more
-/// than rounding. The bodies' rates are those with these forces afterwards.
-void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches);
+/// than rounding, or so many sweeps were made: a column of n bodies needs about n², a light body
+/// between heavy ones as many as the ratio of their masses. The bodies' rates are those with these
+/// forces afterwards.
+void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps);
 
 }  // namespace ghtrack

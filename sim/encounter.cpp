@@ -12,16 +12,18 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kParting = 1e-9;          // slower than this two bodies neither part nor close [m/s]
-constexpr double kClinging = 1e-4;         // what is pressed together does not part at less [m/s]
-constexpr double kOverlap = 1e-10;         // a smaller one is a rounding error [m]
-constexpr double kSlipDecay = 0.02;        // time in which the last slip of a rolling body dies [s]
-constexpr double kAtRest = 1e-7;           // slower than this, and held, a body rests [m/s]
+constexpr double kParting = 1e-9;    // slower than this two bodies neither part nor close [m/s]
+constexpr double kClinging = 1e-4;   // what is pressed together does not part at less [m/s]
+constexpr double kOverlap = 1e-10;   // a smaller one is a rounding error [m]
+constexpr double kSlipDecay = 0.02;  // time in which the last slip of a rolling body dies [s]
+constexpr double kAtRest = 1e-7;     // slower than this, and held, a body rests [m/s]
 constexpr double kLongestTogether = 1.0 / 240.0;  // step of bodies that are pressed together [s]
-constexpr double kShortestStep = 1e-6;     // where hits follow each other without end [s]
-constexpr int kMostSamples = 2000;         // of a step, in the search for the first touch
-constexpr int kMostHits = 100;             // of each body in a step; then nothing bounces any more
-constexpr int kMostSteps = 200;            // from hit to hit, the same; then hits are passed over
+constexpr double kShortestStep = 1e-6;            // where hits follow each other without end [s]
+constexpr int kMostSamples = 2000;                // of a step, in the search for the first touch
+constexpr int kForceSweeps = 200;     // of solve_contacts(), where the last answer is a guess
+constexpr int kImpulseSweeps = 2000;  // and where there is none
+constexpr int kMostHits = 100;        // of each body in a step; then nothing bounces any more
+constexpr int kMostSteps = 200;       // from hit to hit, the same; then hits are passed over
 
 /// What moves on regardless, at an instant.
 struct Passer {
@@ -46,20 +48,20 @@ struct Pair {
 
 /// Where the one stands to the other.
 struct Gap {
-  Vec2 normal;                        // from the other to the one
-  double distance = 0.0;              // between their rims [m]
-  double curvature = 0.0;             // of the path of the one's centre around the other [1/m]
-  Vec2 velocity = Vec2::Zero();       // of the other, where they are closest [m/s]
-  Vec2 acceleration = Vec2::Zero();   // of the other if it does not give way [m/s²]
+  Vec2 normal;                       // from the other to the one
+  double distance = 0.0;             // between their rims [m]
+  double curvature = 0.0;            // of the path of the one's centre around the other [1/m]
+  Vec2 velocity = Vec2::Zero();      // of the other, where they are closest [m/s]
+  Vec2 acceleration = Vec2::Zero();  // of the other if it does not give way [m/s²]
 };
 
 /// Bodies that are pressed together, and all that they touch.
 struct Heap {
-  std::vector<int> bodies;         // ascending
-  std::vector<int> place;          // of each round body among these; −1: moves alone
+  std::vector<int> bodies;  // ascending
+  std::vector<int> place;   // of each round body among these; −1: moves alone
   std::vector<Pair> pairs;
-  std::vector<Touch> touches;      // of the pairs; pushes are first guesses
-  std::vector<double> turning;     // signs of the bodies' spins
+  std::vector<Touch> touches;   // of the pairs; pushes are first guesses
+  std::vector<double> turning;  // signs of the bodies' spins
   bool holds(int body) const { return place[static_cast<std::size_t>(body)] >= 0; }
   std::size_t index(int body) const {
     return static_cast<std::size_t>(place[static_cast<std::size_t>(body)]);
@@ -127,8 +129,7 @@ class Encounter {
                     const Outline& outline) const {
     const RigidBody& body = passer.body;
     const Vec2 apart = one.position - body.position;
-    const Contact contact =
-        contact_with_outline(one.position, body.position, body.angle, outline);
+    const Contact contact = contact_with_outline(one.position, body.position, body.angle, outline);
     const Vec2 arm = apart - contact.distance * contact.normal;
     return {contact.normal, contact.distance - radius, contact.curvature,
             body.velocity + body.spin * Vec2(-arm.y(), arm.x()), passer.acceleration};
@@ -153,8 +154,7 @@ class Encounter {
 
   Gap gap(const Instant& now, const Pair& pair) const {
     const RigidBody one = body_of(now, pair.one);
-    const RigidBody other =
-        pair.kind == Partner::kRound ? body_of(now, pair.other) : RigidBody{};
+    const RigidBody other = pair.kind == Partner::kRound ? body_of(now, pair.other) : RigidBody{};
     return gap(one, other, pair, now.passing);
   }
 
@@ -217,7 +217,8 @@ class Encounter {
         pairs_.push_back({i, Partner::kRound, j});
       }
       for (int k = 0; k < static_cast<int>(passing_.size()); ++k) {
-        if (may_meet(yielding_[at(i)], passing_[at(k)])) pairs_.push_back({i, Partner::kPassing, k});
+        if (may_meet(yielding_[at(i)], passing_[at(k)]))
+          pairs_.push_back({i, Partner::kPassing, k});
       }
       for (int s = 0; s < static_cast<int>(environment_.surfaces().size()); ++s) {
         const Contact contact = environment_.surfaces()[at(s)].contact(round[at(i)].position);
@@ -230,8 +231,8 @@ class Encounter {
 
   // Impacts.
 
-  /// Lets those that touch and close exchange impulses until nobody closes any more: what bounces one
-  /// after the other, the fastest first, and the rest at once.
+  /// Lets those that touch and close exchange impulses until nobody closes any more: what bounces
+  /// one after the other, the fastest first, and the rest at once.
   void exchange_impulses(Instant& now) {
     const int most = kMostHits * static_cast<int>(yielding_.size());
     for (;;) {
@@ -266,10 +267,10 @@ class Encounter {
   void record(const Instant& now, const Pair& pair, const Vec2& impulse) {
     const bool at_surface = pair.kind == Partner::kSurface;
     if (!at_surface) meeting_.touched = true;
-    const int partner = at_surface                        ? -1
-                        : pair.kind == Partner::kRound ? pair.other
-                                                       : static_cast<int>(yielding_.size()) +
-                                                             pair.other;
+    const int partner = at_surface ? -1
+                        : pair.kind == Partner::kRound
+                            ? pair.other
+                            : static_cast<int>(yielding_.size()) + pair.other;
     meeting_.hits.push_back({now.time, pair.one, partner, at_surface ? pair.other : -1,
                              flight(now, pair.one)->position, impulse});
   }
@@ -330,7 +331,7 @@ class Encounter {
         touch.slip_offset = -tangent_to(there.normal).dot(there.velocity);
       }
     }
-    solve_contacts(pushed, heap.touches);
+    solve_contacts(pushed, heap.touches, kImpulseSweeps);
     std::vector<FlightState> after = before;
     for (std::size_t i = 0; i < before.size(); ++i) {
       after[i].velocity = pushed[i].rate;
@@ -465,8 +466,8 @@ class Encounter {
       const FlightState* const other = pair.kind == Partner::kRound && heap.holds(pair.other)
                                            ? &states[heap.index(pair.other)]
                                            : nullptr;
-      const Gap there = gap(body_in_flight(one), other != nullptr ? body_in_flight(*other) : RigidBody{},
-                            pair, passing);
+      const Gap there = gap(body_in_flight(one),
+                            other != nullptr ? body_in_flight(*other) : RigidBody{}, pair, passing);
       const Vec2 tangent = tangent_to(there.normal);
       const double sliding = tangent.dot(one.velocity - there.velocity);
       double slip = sliding + one.spin * bodies_[at(pair.one)].radius;
@@ -483,7 +484,7 @@ class Encounter {
       touch.slip_offset = slip / kSlipDecay - tangent.dot(there.acceleration);
       touch.slip = noticeable(slip);
     }
-    solve_contacts(pushed, heap.touches);
+    solve_contacts(pushed, heap.touches, kForceSweeps);
     std::vector<FlightRate> result;
     for (const Pushed& body : pushed) result.push_back({body.rate, body.spin_rate});
     return result;
@@ -521,15 +522,17 @@ class Encounter {
       const FlightRate first = free_rate(before[i], index, from);
       const FlightRate second = free_rate(after[i], index, to);
       const double turned = after[i].angle - before[i].angle;
-      sum += 0.5 * body.mass *
-             ((first.acceleration + second.acceleration).dot(after[i].position - before[i].position) +
-              body.inertia * body.radius * body.radius * (first.spin + second.spin) * turned);
+      sum +=
+          0.5 * body.mass *
+          ((first.acceleration + second.acceleration).dot(after[i].position - before[i].position) +
+           body.inertia * body.radius * body.radius * (first.spin + second.spin) * turned);
     }
     return sum;
   }
 
   /// One common Runge–Kutta step.
-  void move_heap(const Instant& start, Instant& end, Heap heap) const {
+  /// @param lasting  not a trial
+  void move_heap(const Instant& start, Instant& end, Heap heap, bool lasting) const {
     const double step = end.time - start.time;
     const std::vector<FlightState> before = states_of(start, heap);
     const std::size_t count = before.size();
@@ -561,8 +564,7 @@ class Encounter {
       after[i].velocity += sixth * (k1[i].acceleration + 2.0 * k2[i].acceleration +
                                     2.0 * k3[i].acceleration + k4[i].acceleration);
       after[i].spin += sixth * (k1[i].spin + 2.0 * k2[i].spin + 2.0 * k3[i].spin + k4[i].spin);
-      after[i].angle +=
-          sixth * (before[i].spin + 2.0 * s2[i].spin + 2.0 * s3[i].spin + s4[i].spin);
+      after[i].angle += sixth * (before[i].spin + 2.0 * s2[i].spin + 2.0 * s3[i].spin + s4[i].spin);
       if (heap.turning[i] * after[i].spin < 0.0 && rolls(heap, static_cast<int>(i))) {
         after[i].spin = 0.0;
       }
@@ -581,7 +583,7 @@ class Encounter {
       FlightState& state = *flight(end, pair.one);
       (state.support < 0 ? state.support : state.second_support) = pair.other;
     }
-    note_leaning(end, heap);
+    if (lasting) note_leaning(end, heap);
   }
 
   bool rolls(const Heap& heap, int place) const {
@@ -638,7 +640,7 @@ class Encounter {
       touch.holds = heap.touches[i].push > 0.0;
       if (pair.kind != Partner::kRound) touch.normal_offset = -there.normal.dot(there.velocity);
     }
-    solve_contacts(pushed, touches);
+    solve_contacts(pushed, touches, kImpulseSweeps);
     for (std::size_t i = 0; i < states.size(); ++i) states[i].velocity = pushed[i].rate;
   }
 
@@ -649,8 +651,7 @@ class Encounter {
       return pair.kind == Partner::kPassing;
     });
     if (is_carried) return;
-    const double most =
-        std::max(0.0, energy(before, heap) + work(before, after, heap, from, to));
+    const double most = std::max(0.0, energy(before, heap) + work(before, after, heap, from, to));
     const double now = energy(after, heap);
     if (now <= most) return;
     const double factor = std::sqrt(most / now);
@@ -683,25 +684,59 @@ class Encounter {
   // Motion.
 
   /// Everyone at a later time: those in the heap together, the others alone.
+  Instant moved(const Instant& start, const Heap& heap, double time,
+                std::vector<ImpactLog>* logs) const {
+    if (time == start.time) return start;
+    Instant end{time, start.round, passers_at(time)};
+    for (std::size_t i = 0; i < yielding_.size(); ++i) {
+      if (heap.place[i] >= 0) continue;
+      yielding_[i].mover->advance(end.round[i], environment_, start.time, time,
+                                  logs != nullptr ? &(*logs)[i] : nullptr);
+    }
+    if (!heap.bodies.empty()) move_heap(start, end, heap, logs != nullptr);
+    return end;
+  }
+
+  /// A step of the heap, and where everyone is within it: those in the heap on cubics, which saves
+  /// to solve for their forces again and again, the others as they move alone.
+  struct Trial {
+    const Instant& start;
+    const Heap& heap;
+    Instant end;
+  };
+
   /// @param only  a pair whose motion alone is wanted
-  Instant moved(const Instant& start, const Heap& heap, double time, std::vector<ImpactLog>* logs,
-                const Pair* only = nullptr) const {
+  Instant within(const Trial& trial, double time, const Pair* only = nullptr) const {
+    const Instant& start = trial.start;
     if (time == start.time) return start;
     const auto is_wanted = [only](int body) {
       return only == nullptr || body == only->one ||
              (only->kind == Partner::kRound && body == only->other);
     };
-    const bool heap_moves = std::any_of(heap.bodies.begin(), heap.bodies.end(), is_wanted);
     const bool passers_move =
-        !passing_.empty() && (only == nullptr || only->kind == Partner::kPassing || heap_moves);
-    Instant end{time, start.round, passers_move ? passers_at(time) : start.passing};
-    for (std::size_t i = 0; i < yielding_.size(); ++i) {
-      if (heap.place[i] >= 0 || !is_wanted(static_cast<int>(i))) continue;
-      yielding_[i].mover->advance(end.round[i], environment_, start.time, time,
-                                  logs != nullptr ? &(*logs)[i] : nullptr);
+        !passing_.empty() && (only == nullptr || only->kind == Partner::kPassing);
+    Instant there{time, start.round, passers_move ? passers_at(time) : start.passing};
+    const double step = trial.end.time - start.time;
+    const double f = (time - start.time) / step;
+    const double g = 1.0 - f;
+    for (int i = 0; i < static_cast<int>(yielding_.size()); ++i) {
+      if (!is_wanted(i)) continue;
+      if (!trial.heap.holds(i)) {
+        yielding_[at(i)].mover->advance(there.round[at(i)], environment_, start.time, time,
+                                        nullptr);
+        continue;
+      }
+      const FlightState& before = *flight(start, i);
+      const FlightState& after = *flight(trial.end, i);
+      FlightState& state = *flight(there, i);
+      const Vec2 way = after.position - before.position;
+      state.position = before.position + f * f * (1.0 + 2.0 * g) * way +
+                       step * f * g * (g * before.velocity - f * after.velocity);
+      state.velocity = 6.0 * f * g / step * way + g * (1.0 - 3.0 * f) * before.velocity +
+                       f * (1.0 - 3.0 * g) * after.velocity;
+      state.spin = g * before.spin + f * after.spin;
     }
-    if (heap_moves) move_heap(start, end, heap);
-    return end;
+    return there;
   }
 
   double longest_step(const Instant& now, const Heap& heap) const {
@@ -771,14 +806,19 @@ class Encounter {
     const std::vector<Pair> pairs = watched(heap);
     if (pairs.empty()) return std::nullopt;
     const int samples = samples_of(start, end);
+    Trial trial{start, heap, start};
+    trial.end.time = end;
+    if (!heap.bodies.empty()) {
+      trial.end.passing = passers_at(end);
+      move_heap(start, trial.end, heap, false);
+    }
     Instant before = start;
     for (int k = 1; k <= samples; ++k) {
-      const double time =
-          k == samples ? end : start.time + (end - start.time) * k / samples;
-      Instant after = moved(start, heap, time, nullptr);
+      const double time = k == samples ? end : start.time + (end - start.time) * k / samples;
+      Instant after = within(trial, time);
       std::optional<double> first;
       for (const Pair& pair : pairs) {
-        const std::optional<double> hit = hit_between(start, heap, pair, before, after);
+        const std::optional<double> hit = hit_between(trial, pair, before, after);
         if (hit && (!first || *hit < *first)) first = hit;
       }
       if (first) return first;
@@ -802,15 +842,15 @@ class Encounter {
     return static_cast<int>(std::clamp(wanted, 2.0, static_cast<double>(kMostSamples)));
   }
 
-  std::optional<double> hit_between(const Instant& start, const Heap& heap, const Pair& pair,
-                                    const Instant& before, const Instant& after) const {
+  std::optional<double> hit_between(const Trial& trial, const Pair& pair, const Instant& before,
+                                    const Instant& after) const {
     const Gap first = gap(before, pair);
     const Gap last = gap(after, pair);
     const double travelled =
         (body_of(after, pair.one).position - body_of(before, pair.one).position).norm() +
         last.velocity.norm() * (after.time - before.time);
     if (std::min(first.distance, last.distance) > 2.0 * travelled + 1e-3) return std::nullopt;
-    const auto at = [&](double time) { return moved(start, heap, time, nullptr, &pair); };
+    const auto at = [&](double time) { return within(trial, time, &pair); };
     double touching = after.time;
     if (!(last.distance < -kOverlap && parting(after, pair, last) < -kParting)) {
       // Was it closer between the two?

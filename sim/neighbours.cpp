@@ -69,7 +69,8 @@ class Neighbourhood::Tree {
       const std::ptrdiff_t one = bodies_[first].box;
       const std::ptrdiff_t other = bodies_[second].box;
       if (one < 0 || other < 0) continue;
-      const auto [a, b] = std::minmax({static_cast<std::size_t>(one), static_cast<std::size_t>(other)});
+      const auto [a, b] =
+          std::minmax({static_cast<std::size_t>(one), static_cast<std::size_t>(other)});
       if (may_meet(boxes[a], boxes[b]) && overlap(boxes[a], boxes[b])) result.emplace_back(a, b);
     }
     std::sort(result.begin(), result.end());
@@ -78,8 +79,8 @@ class Neighbourhood::Tree {
 
   // For b2DynamicTree::Query.
   bool QueryCallback(std::int32_t proxy) {
-    const auto other = static_cast<std::size_t>(
-        reinterpret_cast<std::uintptr_t>(tree_.GetUserData(proxy)));
+    const auto other =
+        static_cast<std::size_t>(reinterpret_cast<std::uintptr_t>(tree_.GetUserData(proxy)));
     if (other == asking_ || (bodies_[other].moved && other < asking_)) return true;
     near_.emplace_back(asking_, other);
     return true;

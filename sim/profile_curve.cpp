@@ -39,8 +39,7 @@ ProfileCurve::Shape ProfileCurve::at(double x) const {
   return {a * points_[i].y() + b * points_[i + 1].y() +
               sixth * ((a * a * a - a) * bends_[i] + (b * b * b - b) * bends_[i + 1]),
           (points_[i + 1].y() - points_[i].y()) / width +
-              width / 6.0 *
-                  ((1.0 - 3.0 * a * a) * bends_[i] + (3.0 * b * b - 1.0) * bends_[i + 1]),
+              width / 6.0 * ((1.0 - 3.0 * a * a) * bends_[i] + (3.0 * b * b - 1.0) * bends_[i + 1]),
           a * bends_[i] + b * bends_[i + 1]};
 }
 

@@ -103,8 +103,8 @@ void append_surfaces(const Ground& ground, std::vector<Surface>& surfaces) {
 }
 
 void append_surfaces(const Wall& wall, std::vector<Surface>& surfaces) {
-  surfaces.push_back({Surface::Shape::kWall, wall.from, wall.to, wall.restitution, wall.friction,
-                      wall.rolling});
+  surfaces.push_back(
+      {Surface::Shape::kWall, wall.from, wall.to, wall.restitution, wall.friction, wall.rolling});
 }
 
 void append_surfaces(const SolidBox& box, std::vector<Surface>& surfaces) {

@@ -118,7 +118,8 @@ Parts World::Scenery::parts_of(const States& before, const States& after, double
       const Vec2 end = movers[i].body(after[i], part).position;
       parts.boxes.push_back({first_parts[i] + static_cast<std::size_t>(part),
                              begin.cwiseMin(end) - margin, begin.cwiseMax(end) + margin, yields,
-                             static_cast<int>(i), carriers[i] ? static_cast<int>(*carriers[i]) : -1});
+                             static_cast<int>(i),
+                             carriers[i] ? static_cast<int>(*carriers[i]) : -1});
       parts.part.push_back(part);
     }
   }
@@ -142,7 +143,8 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
     };
     return name(a) < name(b);
   };
-  // Whoever is hit may leave the box of its own motion and meet others: once more, with larger ones.
+  // Whoever is hit may leave the box of its own motion and meet others: once more, with larger
+  // ones.
   constexpr int kMostRounds = 4;
   for (int round = 0;; ++round) {
     std::int64_t missed = 0;
@@ -154,8 +156,10 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
       std::sort(cluster.unyielding.begin(), cluster.unyielding.end(), by_name);
       std::vector<Participant> yielding;
       std::vector<Participant> passing;
-      for (const std::size_t i : cluster.yielding) yielding.push_back(participant(before, parts, i));
-      for (const std::size_t i : cluster.unyielding) passing.push_back(participant(before, parts, i));
+      for (const std::size_t i : cluster.yielding)
+        yielding.push_back(participant(before, parts, i));
+      for (const std::size_t i : cluster.unyielding)
+        passing.push_back(participant(before, parts, i));
       Meeting meeting = meet(yielding, passing, environment, from, to);
       if (!meeting.resolved) ++missed;
       if (!meeting.touched) continue;
@@ -195,7 +199,8 @@ double World::Scenery::move_out(States& at, std::size_t target,
       deepest = radius - contact.distance;
       normal = contact.normal;
     };
-    for (const Surface& surface : environment.surfaces()) consider(surface.contact(flight->position));
+    for (const Surface& surface : environment.surfaces())
+      consider(surface.contact(flight->position));
     for (const std::size_t other : others) {
       if (other == target || !is_there(at[other], other, time)) continue;
       if (carriers[target] == other || carriers[other] == target) continue;

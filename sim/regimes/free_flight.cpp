@@ -55,7 +55,8 @@ Cornered corner(const FlightState& state, const FlightRate& free, const RoundBod
   for (const int index : {state.support, state.second_support}) {
     result.touches.push_back(touch_of(state, body, surface_at(surfaces, index), turning));
   }
-  solve_contacts(one, result.touches);
+  constexpr int kMostSweeps = 200;
+  solve_contacts(one, result.touches, kMostSweeps);
   result.rate = {one[0].rate, one[0].spin_rate};
   // Held from two sides it goes nowhere, not even by a rounding error.
   const bool held = std::all_of(result.touches.begin(), result.touches.end(),
@@ -98,7 +99,8 @@ void keep_out(FlightState& state, const std::vector<Surface>& surfaces) {
     return;
   }
   const Vec2 second = surface_at(surfaces, state.second_support).contact(state.position).normal;
-  const Vec2 on_first = state.velocity.dot(first) < 0.0 ? along(state.velocity, first) : state.velocity;
+  const Vec2 on_first =
+      state.velocity.dot(first) < 0.0 ? along(state.velocity, first) : state.velocity;
   if (on_first.dot(second) >= 0.0) {
     state.velocity = on_first;
     return;
@@ -133,9 +135,8 @@ FlightRate supported_rate(const FlightState& state, const FlightRate& free, cons
   } else if (rolling > 0.0) {
     spin -= turning * couple;
   }
-  const double friction =
-      dissipative(-(along + spin * body.radius + slipping) / (1.0 + 1.0 / body.inertia), grip,
-                  noticeable(rim));
+  const double friction = dissipative(
+      -(along + spin * body.radius + slipping) / (1.0 + 1.0 / body.inertia), grip, noticeable(rim));
   return {(along + friction) * tangent - inwards * normal,
           spin + friction / (body.inertia * body.radius)};
 }
@@ -202,8 +203,8 @@ void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
   if (rate.acceleration.norm() < most && std::abs(rate.spin) * body.radius < most) state = still;
 }
 
-bool changes_on_supports(const FlightState& before, const FlightState& after,
-                         const RoundBody& body, const std::vector<Surface>& surfaces) {
+bool changes_on_supports(const FlightState& before, const FlightState& after, const RoundBody& body,
+                         const std::vector<Surface>& surfaces) {
   for (const int index : {before.support, before.second_support}) {
     if (index < 0) continue;
     const Surface& surface = surface_at(surfaces, index);
@@ -333,8 +334,7 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
         break;
       }
       // Between two samples it may have grazed an end.
-      if (closes && parting >= 0.0 && is_wall &&
-          contact.distance - body.radius < reach / samples) {
+      if (closes && parting >= 0.0 && is_wall && contact.distance - body.radius < reach / samples) {
         double towards = clear;
         double nearest = f;
         while (nearest - towards > 1e-12) {

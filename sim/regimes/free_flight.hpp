@@ -57,8 +57,7 @@ FlightRate supported_rate(const FlightState& state, const FlightRate& free, cons
                           const std::vector<Surface>& surfaces, double turning);
 
 /// Rests a body on the surfaces that it touches and does not leave or approach.
-void find_supports(FlightState& state, const RoundBody& body,
-                   const std::vector<Surface>& surfaces);
+void find_supports(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces);
 
 /// Forgets the supports that the velocity leaves or from which the forces draw the body.
 void leave_supports(FlightState& state, const FlightRate& free, const RoundBody& body,
@@ -76,8 +75,8 @@ void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
 
 /// Whether the equations of motion change between two states on the same supports: a rolling body
 /// comes to rest, or it passes the end of a face.
-bool changes_on_supports(const FlightState& before, const FlightState& after,
-                         const RoundBody& body, const std::vector<Surface>& surfaces);
+bool changes_on_supports(const FlightState& before, const FlightState& after, const RoundBody& body,
+                         const std::vector<Surface>& surfaces);
 
 /// Impact law: restitution along the normal, Coulomb friction along the surface, limited by the
 /// impulse after which the contact point does not slip (Cross 2002):
@@ -322,7 +321,9 @@ void fly_in_wind(const Model& model, FlightState& state, const Environment& envi
     fly_stiffly(
         state, begin, end, body, environment.surfaces(),
         [&](const FlightState& s, double time) { return model.rate(s, environment, at(time)); },
-        [&](const FlightState& s, double time) { return model.stiffness(s, environment, at(time)); },
+        [&](const FlightState& s, double time) {
+          return model.stiffness(s, environment, at(time));
+        },
         log);
   });
 }

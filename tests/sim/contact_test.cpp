@@ -73,8 +73,7 @@ TEST(Contact, BouncesAtAnySpeedWhereNothingPresses) {
     EXPECT_NEAR(truth.objects[1].velocity.x(), 0.95 * speed, 1e-9 * speed);
 
     WorldConfig config = in_empty_space({target_of(moving, "a")});
-    config.environment.walls = {
-        Wall{Vec2(0.1 + 0.5 * speed, -1.0), Vec2(0.1 + 0.5 * speed, 1.0)}};
+    config.environment.walls = {Wall{Vec2(0.1 + 0.5 * speed, -1.0), Vec2(0.1 + 0.5 * speed, 1.0)}};
     World wall(config, 1);
     EXPECT_NEAR(state_at(wall, 2.0).velocity.x(), -0.9 * speed, 1e-9 * speed);
   }
@@ -169,8 +168,8 @@ TEST(Contact, ComesBackToTheGroundFromAWall) {
   EXPECT_EQ(state_at(world, 20.0).velocity.y(), 0.0);
 }
 
-// Derived: a rolling ball slows down by c g / (1 + β) and stops after v² (1 + β) / (2 c g); there it
-// stays, against any force that is weaker than c m g.
+// Derived: a rolling ball slows down by c g / (1 + β) and stops after v² (1 + β) / (2 c g); there
+// it stays, against any force that is weaker than c m g.
 TEST(Contact, StopsByRollingResistance) {
   ThrownBall ball = plain_ball(Vec2(0.0, 0.0366), Vec2(3.0, 0.0));
   ball.spin = -3.0 / ball.radius;
@@ -248,9 +247,9 @@ TEST(Contact, MovesOutWhoAppearsInsideSomething) {
   EXPECT_GT((truth.objects[0].position - truth.objects[1].position).norm(), 0.2 - 1e-8);
 }
 
-// Property: without wind and motors the energy of balls between walls, ramps, valleys and each other
-// never grows, nobody sinks into anything by a tenth of a millimetre, and no impact is passed over.
-// The program energy_worlds tries as many as one likes.
+// Property: without wind and motors the energy of balls between walls, ramps, valleys and each
+// other never grows, nobody sinks into anything by a tenth of a millimetre, and no impact is passed
+// over. The program energy_worlds tries as many as one likes.
 TEST(Contact, NeverGainsEnergy) {
   // Some worlds, of which seed 3 is one, take minutes: they are for the program.
   for (std::uint64_t seed = 4; seed < 12; ++seed) {

@@ -54,7 +54,8 @@ EnvironmentConfig random_surroundings(Stream& stream) {
     ground.smooth = stream.uniform() < 0.7;
   }
   environment.ground = ground;
-  environment.walls = {Wall{Vec2(-4.0, -2.0), Vec2(-4.0, 9.0)}, Wall{Vec2(4.0, -2.0), Vec2(4.0, 9.0)}};
+  environment.walls = {Wall{Vec2(-4.0, -2.0), Vec2(-4.0, 9.0)},
+                       Wall{Vec2(4.0, -2.0), Vec2(4.0, 9.0)}};
   const int ramps = static_cast<int>(4.0 * stream.uniform());
   for (int i = 0; i < ramps; ++i) {
     const double x = 6.0 * (stream.uniform() - 0.5);
@@ -67,7 +68,8 @@ EnvironmentConfig random_surroundings(Stream& stream) {
   if (stream.uniform() < 0.4) {
     const double x = 4.0 * (stream.uniform() - 0.5);
     const double angle = 90.0 * stream.uniform();
-    environment.boxes = {SolidBox{.center = Vec2(x, 0.5), .size = Vec2(1.0, 0.7), .angle_deg = angle}};
+    environment.boxes = {
+        SolidBox{.center = Vec2(x, 0.5), .size = Vec2(1.0, 0.7), .angle_deg = angle}};
   }
   return environment;
 }
@@ -121,9 +123,9 @@ EnergyRun run_energy_world(std::uint64_t seed) {
       }
       for (std::size_t j = 0; j < k; ++j) {
         const double apart = (state.position - truth.objects[j].position).norm();
-        result.lowest = std::min(
-            result.lowest,
-            apart - ball.radius - std::get<ThrownBall>(config.targets[j].motion).radius);
+        result.lowest =
+            std::min(result.lowest,
+                     apart - ball.radius - std::get<ThrownBall>(config.targets[j].motion).radius);
       }
     }
     if (i == 0) result.begun = least = energy;

@@ -12,11 +12,11 @@ WorldConfig energy_world(std::uint64_t seed);
 
 /// What became of the energy of such a world.
 struct EnergyRun {
-  double begun = 0.0;       // kinetic, of rotation and potential above the lowest point [J]
-  double most_gained = 0.0; // from one sample to a later one [J]
-  double lowest = 0.0;      // of all gaps between balls and surroundings [m]
+  double begun = 0.0;        // kinetic, of rotation and potential above the lowest point [J]
+  double most_gained = 0.0;  // from one sample to a later one [J]
+  double lowest = 0.0;       // of all gaps between balls and surroundings [m]
   long collisions_missed = 0;
-  double cpu_time = 0.0;    // [s]
+  double cpu_time = 0.0;  // [s]
 };
 
 EnergyRun run_energy_world(std::uint64_t seed);
