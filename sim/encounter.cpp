@@ -74,6 +74,8 @@ class Encounter {
             const Environment& environment, double from, double to)
       : yielding_(yielding), passing_(passing), environment_(environment), from_(from), to_(to) {
     for (const Participant& one : yielding) bodies_.push_back(one.mover->round());
+    first_passers_ = passers_after(0.0);
+    last_passers_ = to > from ? passers_after(to - from) : first_passers_;
     find_pairs();
   }
 
@@ -113,14 +115,40 @@ class Encounter {
     return yielding_[body].mover->body(state, 0).position;
   }
 
-  std::vector<Passer> passers_at(double time) const {
+  /// What passes, at one end of the step.
+  std::vector<Passer> passers_after(double duration) const {
     std::vector<Passer> result;
     for (const Participant& one : passing_) {
       Mover::State state = one.state;
-      if (time > from_) one.mover->advance(state, environment_, from_, time, nullptr);
+      const double time = from_ + duration;
+      if (duration > 0.0) one.mover->advance(state, environment_, from_, time, nullptr);
       const int object = one.mover->objects() > 1 ? one.part : 0;
       result.push_back({one.mover->body(state, one.part),
                         one.mover->kinematics(state, environment_, time, object).acceleration});
+    }
+    return result;
+  }
+
+  /// And in between, on cubics.
+  std::vector<Passer> passers_at(double time) const {
+    if (time <= from_) return first_passers_;
+    if (time >= to_) return last_passers_;
+    const double step = to_ - from_;
+    const double f = (time - from_) / step;
+    const double g = 1.0 - f;
+    std::vector<Passer> result = first_passers_;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const Passer& before = first_passers_[i];
+      const Passer& after = last_passers_[i];
+      Passer& there = result[i];
+      const Vec2 way = after.body.position - before.body.position;
+      there.body.position = before.body.position + f * f * (1.0 + 2.0 * g) * way +
+                            step * f * g * (g * before.body.velocity - f * after.body.velocity);
+      there.body.velocity = 6.0 * f * g / step * way + g * (1.0 - 3.0 * f) * before.body.velocity +
+                            f * (1.0 - 3.0 * g) * after.body.velocity;
+      there.body.angle = g * before.body.angle + f * after.body.angle;
+      there.body.spin = g * before.body.spin + f * after.body.spin;
+      there.acceleration = g * before.acceleration + f * after.acceleration;
     }
     return result;
   }
@@ -803,19 +831,22 @@ class Encounter {
 
   /// The first instant before `end` at which a gap closes.
   std::optional<double> first_hit(const Instant& start, const Heap& heap, double end) const {
-    const std::vector<Pair> pairs = watched(heap);
+    std::vector<Pair> pairs = watched(heap);
     if (pairs.empty()) return std::nullopt;
-    const int samples = samples_of(start, end);
     Trial trial{start, heap, start};
     trial.end.time = end;
     if (!heap.bodies.empty()) {
       trial.end.passing = passers_at(end);
       move_heap(start, trial.end, heap, false);
     }
+    const Instant last = within(trial, end);
+    std::erase_if(pairs, [&](const Pair& pair) { return stay_apart(pair, start, last); });
+    if (pairs.empty()) return std::nullopt;
+    const int samples = samples_of(pairs, start, end);
     Instant before = start;
     for (int k = 1; k <= samples; ++k) {
       const double time = k == samples ? end : start.time + (end - start.time) * k / samples;
-      Instant after = within(trial, time);
+      Instant after = k == samples ? last : within(trial, time);
       std::optional<double> first;
       for (const Pair& pair : pairs) {
         const std::optional<double> hit = hit_between(trial, pair, before, after);
@@ -827,16 +858,28 @@ class Encounter {
     return std::nullopt;
   }
 
+  /// Whether two are too far apart at both ends of a step to meet in between.
+  bool stay_apart(const Pair& pair, const Instant& start, const Instant& last) const {
+    const Gap first = gap(start, pair);
+    const Gap second = gap(last, pair);
+    const double fastest =
+        std::max(body_of(start, pair.one).velocity.norm() + first.velocity.norm(),
+                 body_of(last, pair.one).velocity.norm() + second.velocity.norm());
+    return 0.5 * (first.distance + second.distance) >
+           2.0 * fastest * (last.time - start.time) + 1e-3;
+  }
+
   /// So many that nobody travels farther than a quarter of the smallest radius between two.
-  int samples_of(const Instant& start, double end) const {
+  int samples_of(const std::vector<Pair>& pairs, const Instant& start, double end) const {
     double fastest = 0.0;
     double smallest = 1e9;
-    for (int i = 0; i < static_cast<int>(yielding_.size()); ++i) {
-      fastest = std::max(fastest, body_of(start, i).velocity.norm());
-      smallest = std::min(smallest, bodies_[at(i)].radius);
-    }
-    for (const Passer& passer : start.passing) {
-      fastest = std::max(fastest, passer.body.velocity.norm());
+    for (const Pair& pair : pairs) {
+      fastest = std::max(
+          {fastest, body_of(start, pair.one).velocity.norm(), gap(start, pair).velocity.norm()});
+      smallest = std::min(smallest, bodies_[at(pair.one)].radius);
+      if (pair.kind == Partner::kRound) {
+        smallest = std::min(smallest, bodies_[at(pair.other)].radius);
+      }
     }
     const double wanted = std::ceil(8.0 * fastest * (end - start.time) / smallest);
     return static_cast<int>(std::clamp(wanted, 2.0, static_cast<double>(kMostSamples)));
@@ -888,8 +931,10 @@ class Encounter {
   double from_;
   double to_;
   std::vector<RoundBody> bodies_;
-  std::vector<Pair> pairs_;          // of round bodies with each other and with what passes
-  std::vector<Pair> surface_pairs_;  // and with the surroundings
+  std::vector<Passer> first_passers_;  // at the beginning of the step
+  std::vector<Passer> last_passers_;   // and at its end
+  std::vector<Pair> pairs_;            // of round bodies with each other and with what passes
+  std::vector<Pair> surface_pairs_;    // and with the surroundings
   Meeting meeting_;
   int hits_ = 0;
   int steps_ = 0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/portable_math.hpp"
@@ -140,15 +141,14 @@ Vec2 Turbulence::at(const Vec2& position, double time) {
   const std::array<double, 2> column_weights{across.cos, across.sin};
   const std::array<double, 2> row_weights{up.cos, up.sin};
 
+  const Cell& cell =
+      cell_at(static_cast<std::int64_t>(column), static_cast<std::int64_t>(row), block_index);
   Vec2 gust = Vec2::Zero();
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 2; ++j) {
       const double weight = column_weights[i] * row_weights[j];
       if (weight == 0.0) continue;
-      const std::uint64_t key =
-          key_of_node(static_cast<std::int64_t>(column) + static_cast<std::int64_t>(i),
-                      static_cast<std::int64_t>(row) + static_cast<std::int64_t>(j));
-      const Block& block = block_at(key, block_index);
+      const Block& block = *cell.corners[2 * i + j];
       const Vec2& before = block.gusts[in_block];
       const Vec2& after = block.gusts[in_block + 1];
       gust += weight * (before + fraction * (after - before));
@@ -157,8 +157,30 @@ Vec2 Turbulence::at(const Vec2& position, double time) {
   return gust;
 }
 
+const Turbulence::Cell& Turbulence::cell_at(std::int64_t column, std::int64_t row,
+                                            std::int64_t block) {
+  const auto place = static_cast<std::uint64_t>(5 * column + 3 * row + block);
+  Cell& cell = cells_[place % cells_.size()];
+  const bool is_known =
+      cell.block == block && cell.column == column && cell.row == row &&
+      std::all_of(cell.corners.begin(), cell.corners.end(),
+                  [block](const Block* corner) { return corner->index == block; });
+  if (is_known) return cell;
+  // There must be room for all corners: entering one must not make the memory forget another.
+  if (nodes_.size() + cell.corners.size() > kMaxNodes) forget_old(block);
+  std::array<const Block*, 4> corners{};
+  for (std::int64_t i = 0; i < 2; ++i) {
+    for (std::int64_t j = 0; j < 2; ++j) {
+      corners[static_cast<std::size_t>(2 * i + j)] =
+          &block_at(key_of_node(column + i, row + j), block);
+    }
+  }
+  cell = {column, row, block, corners};
+  return cell;
+}
+
 const Turbulence::Block& Turbulence::block_at(std::uint64_t node_key, std::int64_t index) {
-  if (index > newest_block_ || nodes_.size() > kMaxNodes) {
+  if (index > newest_block_) {
     newest_block_ = index;
     forget_old(index);
   }
@@ -228,10 +250,11 @@ void Turbulence::fill(Block& block, std::uint64_t node_key) const {
 }
 
 void Turbulence::forget_old(std::int64_t index) {
+  cells_.fill(Cell{});
   std::erase_if(nodes_, [index](const auto& entry) {
     return entry.second.blocks[0].index < index - 1 && entry.second.blocks[1].index < index - 1;
   });
-  if (nodes_.size() > kMaxNodes) nodes_.clear();
+  if (nodes_.size() + cells_.front().corners.size() > kMaxNodes) nodes_.clear();
 }
 
 }  // namespace ghtrack

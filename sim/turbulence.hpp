@@ -145,6 +145,13 @@ class Turbulence {
   /// @param mean_wind  its direction and speed matter for Dryden turbulence [m/s]
   Turbulence(const TurbulenceConfig& config, const Vec2& mean_wind, std::uint64_t seed);
 
+  // It points into its memory, which moves with it and is not to be copied.
+  Turbulence(Turbulence&&) = default;
+  Turbulence& operator=(Turbulence&&) = default;
+  Turbulence(const Turbulence&) = delete;
+  Turbulence& operator=(const Turbulence&) = delete;
+  ~Turbulence() = default;
+
   bool calm() const { return axes_.empty(); }
 
   /// Gust velocity, linear in time between knots [m/s]. It remembers what it has computed: not to
@@ -179,10 +186,17 @@ class Turbulence {
   struct Node {
     std::array<Block, 2> blocks;  // of even and odd index: a step may end where a block begins
   };
+  struct Cell {  // of the lattice, during one block: where the last answers came from
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+    std::int64_t block = -1;
+    std::array<const Block*, 4> corners{};
+  };
 
   void add_low_altitude(const LowAltitude& turbulence, const Vec2& mean_wind,
                         std::span<const DrydenPart> parts, double length_factor);
   static Axis make_axis(const Vec2& direction, const Eigen::RowVector2d& output, double time);
+  const Cell& cell_at(std::int64_t column, std::int64_t row, std::int64_t block);
   const Block& block_at(std::uint64_t node_key, std::int64_t index);
   void start(Block& block, std::uint64_t node_key) const;
   void follow(Block& block, const Block& previous, std::uint64_t node_key) const;
@@ -193,6 +207,7 @@ class Turbulence {
   double spacing_ = 1.0;
   std::vector<Axis> axes_;
   std::unordered_map<std::uint64_t, Node> nodes_;  // those asked for of late
+  std::array<Cell, 16> cells_;                     // the same; emptied when nodes are forgotten
   std::int64_t newest_block_ = 0;
 };
 
