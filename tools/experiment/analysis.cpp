@@ -183,13 +183,21 @@ std::vector<SubjectTheory> theory_of(const Trial& trial, int first_run, int runs
     const int run = first_run + static_cast<int>(i);
     of_runs[i] = labelled_objects(trial, run, trial.truth_of(run), wanted);
   });
-  std::vector<SubjectTheory> theory(trial.subjects().size());
+  // The only object of a scene is all of its regime and of the scene, too.
+  const std::vector<Subject>& subjects = trial.subjects();
+  const auto same_objects = [&](std::size_t i) {
+    return std::find_if(subjects.begin(), subjects.end(), [&](const Subject& other) {
+             return other.objects == subjects[i].objects;
+           }) - subjects.begin();
+  };
+  std::vector<SubjectTheory> theory(subjects.size());
   in_parallel(theory.size(), jobs, [&](std::size_t i) {
+    if (same_objects(i) < static_cast<std::ptrdiff_t>(i)) return;
     ObjectsOfRuns objects;
     TruthSums sums;
     for (const std::vector<LabelledObject>& run : of_runs) {
       for (const LabelledObject& object : run) {
-        if (!belongs_to(object.id, trial.subjects()[i])) continue;
+        if (!belongs_to(object.id, subjects[i])) continue;
         objects.push_back(&object);
         sums.add(object);
       }
@@ -198,6 +206,9 @@ std::vector<SubjectTheory> theory_of(const Trial& trial, int first_run, int runs
     theory[i].hindsight = in_hindsight(objects, trial.scene().sensors, trial.scoring(),
                                        [&] { trial.step(); });
   });
+  for (std::size_t i = 0; i < theory.size(); ++i) {
+    theory[i] = theory[static_cast<std::size_t>(same_objects(i))];
+  }
   return theory;
 }
 

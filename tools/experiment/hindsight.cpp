@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "tools/experiment/engine.hpp"
+#include "tools/experiment/even_objects.hpp"
 #include "tools/experiment/gain_search.hpp"
 #include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/axis_covariance.hpp"
@@ -15,7 +16,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::infinity();
-constexpr double kDiffuse = 100.0;  // a start's uncertainty, in sigmas per period
+constexpr double kDiffuse = 100.0;             // a start's uncertainty, in sigmas per period
 constexpr std::size_t kMostSmoothed = 20'000;  // scans
 
 /// Along tracking indices from a target that hardly manoeuvres to one that does nothing else.
@@ -34,8 +35,13 @@ class Judge {
       const auto parts = error_parts(sensor);
       errors_.push_back(parts.value_or(std::vector<ErrorPart>{}));
       has_variance_ = has_variance_ && parts;
-      is_plain_ = is_plain_ && position != nullptr && position->bias.isZero() && !sensor.student_dof &&
-                  sensor.outlier_probability == 0.0;
+      is_plain_ = is_plain_ && position != nullptr && position->bias.isZero() &&
+                  !sensor.student_dof && sensor.outlier_probability == 0.0;
+    }
+    if (is_plain_) {
+      even_ = EvenObjects::among(objects_, others_);
+    } else {
+      others_.assign(objects_.begin(), objects_.end());
     }
   }
 
@@ -45,7 +51,8 @@ class Judge {
   double expected(const GainFilter<2>& filter) const {
     on_step_();
     Mean squares;
-    for (const LabelledObject* object : objects_) {
+    if (even_) squares += even_->expected_error(filter);
+    for (const LabelledObject* object : others_) {
       if (is_plain_) {
         squares += expected_errors(filter, *object).position;
       } else {
@@ -101,8 +108,14 @@ class Judge {
     config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
     config.initial_acceleration = config.initial_speed / scoring_.period;
     Mean squares;
+    if (even_) {
+      squares += even_->smoothed_error(Order,
+                                       process_noise(ProcessModel::kPiecewiseConstant, Order,
+                                                     noise.process_noise, scoring_.period),
+                                       {0.0, config.initial_speed, config.initial_acceleration});
+    }
     std::size_t scans = 0;
-    for (const LabelledObject* object : objects_) {
+    for (const LabelledObject* object : others_) {
       squares += smoothed_errors(config, scoring_, *object).position;
       if ((scans += object->scans.size()) > kMostSmoothed) break;
     }
@@ -115,6 +128,8 @@ class Judge {
   const RunMetricsOptions& scoring_;
   const std::function<void()>& on_step_;
   std::vector<std::vector<ErrorPart>> errors_;
+  std::optional<EvenObjects> even_;            // go through a filter together,
+  std::vector<const LabelledObject*> others_;  // one by one
   bool is_plain_ = true;
   bool has_variance_ = true;
 };
@@ -138,11 +153,11 @@ void find_best_gains(const Judge& judge, Hindsight& found) {
         start, [&](const Gains& gains) { return judge.expected(judge.with(gains)); });
     keep(off.gains, off.cost);
   }
-  const FoundNumber cv = least_over_indices(
-      [&](double index) { return judge.expected(judge.kalman_like<1>(index)); });
+  const FoundNumber cv =
+      least_over_indices([&](double index) { return judge.expected(judge.kalman_like<1>(index)); });
   keep(tracking_index_gains(1, cv.at), cv.cost);
-  const FoundNumber ca = least_over_indices(
-      [&](double index) { return judge.expected(judge.kalman_like<2>(index)); });
+  const FoundNumber ca =
+      least_over_indices([&](double index) { return judge.expected(judge.kalman_like<2>(index)); });
   keep(tracking_index_gains(2, ca.at), ca.cost);
   if (std::isfinite(least)) found.best_fixed_gains = least;
 }
@@ -158,11 +173,13 @@ Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfi
   if (judge.has_variance()) find_best_gains(judge, found);
   constexpr int kIndices = 7;
   constexpr int kSections = 2;
-  const double least = std::min(
-      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<1>(at); })
-          .cost,
-      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<2>(at); })
-          .cost);
+  const double least =
+      std::min(least_cost_of_number(1e-4, 1e2, kIndices, kSections,
+                                    [&](double at) { return judge.smoothed_error<1>(at); })
+                   .cost,
+               least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) {
+                 return judge.smoothed_error<2>(at);
+               }).cost);
   if (std::isfinite(least)) found.smoother = least;
   return found;
 }
