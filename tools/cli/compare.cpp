@@ -136,7 +136,7 @@ void publish(const Study& study, const Results& results, const fs::path& folder,
              const CompareOptions& options, const Manners& manners) {
   constexpr std::int64_t kMostRunsInTable = 10'000;
   const Comparison comparison =
-      compare(study.campaign, results, threads(options), stop_if_interrupted);
+      compare(study.campaign, study.groups, results, threads(options), stop_if_interrupted);
   ResultFolder files(folder);
   if (options.runs_csv.value_or(study.campaign.items() <= kMostRunsInTable)) {
     write_run_table(study.campaign, results, files.scratch() / "runs.csv");

@@ -174,14 +174,15 @@ int theory_runs(const WorldScene& scene, int runs) {
   return std::min(runs, truth_is_fixed(scene) ? kRunsOfOneTruth : kTheoryRuns);
 }
 
-std::vector<SubjectTheory> theory_of(const Trial& trial, int first_run, int runs, int jobs) {
+std::vector<SubjectTheory> theory_of(const Trial& trial, const SharedTruth& truth, int first_run,
+                                     int runs, int jobs) {
   const int some = theory_runs(trial.scene(), runs);
   const std::vector<ObjectId> wanted =
       some_objects(trial, kTheoryScans / static_cast<std::size_t>(some));
   std::vector<std::vector<LabelledObject>> of_runs(static_cast<std::size_t>(some));
   in_parallel(of_runs.size(), jobs, [&](std::size_t i) {
     const int run = first_run + static_cast<int>(i);
-    of_runs[i] = labelled_objects(trial, run, trial.truth_of(run), wanted);
+    of_runs[i] = labelled_objects(trial, run, truth.of_run(run, false), wanted);
   });
   // The only object of a scene is all of its regime and of the scene, too.
   const std::vector<Subject>& subjects = trial.subjects();

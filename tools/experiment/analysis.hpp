@@ -18,7 +18,7 @@ struct SubjectTheory {
 
 /// Theory for all subjects of a cell, over runs of it. Of swarms only some objects are looked at.
 /// @param jobs  threads; the outcome does not depend on them
-std::vector<SubjectTheory> theory_of(const Trial& trial, int first_run, int runs, int jobs);
+std::vector<SubjectTheory> theory_of(const Trial& trial, const SharedTruth& truth, int first_run, int runs, int jobs);
 
 /// Over how many of so many runs theory goes: all of them, or where they have one truth a few, which
 /// differ in missed detections alone.

@@ -127,11 +127,12 @@ struct Comparison {
 };
 
 /// Averages the results of a campaign and sets theory beside them.
+/// @param groups   the campaign's cells by their truth
 /// @param results  of all runs
 /// @param jobs     threads; the outcome does not depend on them
 /// @param on_step  called again and again by all threads; may throw to give up
 Comparison compare(
-    const Campaign& campaign, const Results& results, int jobs,
+    const Campaign& campaign, std::span<const CellGroup> groups, const Results& results, int jobs,
     const std::function<void()>& on_step = [] {});
 
 /// `comparison.csv`: one line per row.

@@ -47,7 +47,7 @@ void SharedTruth::add(const WorldScene& scene) {
 }
 
 bool SharedTruth::stays(int run) const {
-  return run < kKeptRuns && recorded_bytes(objects_, instants_.size()) * kKeptRuns <= room_;
+  return run < kKeptRuns && recorded_bytes(objects_, instants_.size()) * (run + 1) <= room_;
 }
 
 RunTruth SharedTruth::of_run(int run, bool is_reused) const {

@@ -34,8 +34,8 @@ class RunTruth {
 class SharedTruth {
  public:
   /// Recordings of so many runs, the first ones, stay for whoever asks for them later, such as
-  /// theory; if they have room.
-  static constexpr int kKeptRuns = 8;
+  /// theory; as many as there is room for.
+  static constexpr int kKeptRuns = 200;
 
   /// @param on_step  called at each instant that is recorded; may throw to give up
   explicit SharedTruth(
@@ -44,7 +44,7 @@ class SharedTruth {
   /// Makes room for the scans of another scene with the same truth.
   void add(const WorldScene& scene);
 
-  /// @param bytes  that recordings which stay may take; else they are made anew
+  /// @param bytes  that recordings which stay may take; others are made anew
   void set_room(double bytes) { room_ = bytes; }
 
   /// The truth of a run: recorded if all runs have it in common, if it stays, or if it is to be gone

@@ -335,7 +335,7 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
   const Runs training = labelled_runs(trial, kFirstTuningRun, options);
   const Runs judging = labelled_runs(trial, kFirstJudgingRun, options);
   const std::vector<SubjectTheory> theory =
-      theory_of(trial, kFirstJudgingRun, options.runs, options.jobs);
+      theory_of(trial, trial.truth(), kFirstJudgingRun, options.runs, options.jobs);
 
   std::vector<std::size_t> regimes;  // among the subjects
   for (std::size_t i = 0; i < trial.subjects().size(); ++i) {

@@ -43,7 +43,7 @@ compare:
 )" + more;
   const Campaign campaign{
       {{std::get<WorldScene>(read_scene_text(text, "predicted.yaml")), "predicted.yaml", ""}}};
-  return compare(campaign, testing::all_results(campaign, 2), 2);
+  return compare(campaign, groups_by_truth(campaign), testing::all_results(campaign, 2), 2);
 }
 
 /// Whether what is predicted lies within 2 % of what is measured, or within one and a half of its
