@@ -127,9 +127,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
                      FilterTheory{contenders.front().tracker.design(), scene.sensors});
   std::optional<RunMatches> matches;
   if (options.matches) matches.emplace(folder / "matches.csv", scoring.gospa());
-  std::vector<ObjectId> everyone;
-  for (const ObjectInfo& object : objects) everyone.push_back(object.id);
-  LabelledObjectRecorder labelled(objects.size(), everyone, kMostHindsightScans);
+  LabelledObjectRecorder labelled(objects.size(), objects_for_hindsight(scene, objects.size()));
   RunObservers observers = {&watch, &files, &metrics, &labelled};
   if (matches) observers.push_back(&*matches);
   if (film) observers.push_back(&*film);
@@ -154,9 +152,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunReport report = metrics.report();
   report.counts = counts.front();
-  if (labelled.is_complete()) 
-    add_hindsight(report, std::move(labelled).objects(), scene.sensors, stop_if_interrupted);
-  
+  add_hindsight(report, std::move(labelled).objects(), scene.sensors, stop_if_interrupted);
   if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   AtomicFile scores(folder / "metrics.json");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <variant>
 
 #include "tools/experiment/engine.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::infinity();
 constexpr double kDiffuse = 100.0;             // a start's uncertainty, in sigmas per period
+constexpr double kMostLooks = 20'000.0;  // at all objects of a run
 constexpr std::size_t kMostSmoothed = 20'000;  // scans
 
 /// Along tracking indices from a target that hardly manoeuvres to one that does nothing else.
@@ -182,6 +184,15 @@ Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfi
                }).cost);
   if (std::isfinite(least)) found.smoother = least;
   return found;
+}
+
+std::vector<ObjectId> objects_for_hindsight(const WorldScene& scene, std::size_t objects) {
+  double scans = 0.0;
+  for (const SensorConfig& sensor : scene.sensors) scans += 1.0 + scene.duration * sensor.rate;
+  if (scans * static_cast<double>(objects) > kMostLooks) return {};
+  std::vector<ObjectId> all(objects);
+  std::iota(all.begin(), all.end(), ObjectId{0});
+  return all;
 }
 
 void add_hindsight(RunReport& report, const std::vector<LabelledObject>& objects,
