@@ -121,7 +121,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunWatch watch(frames.size(), manners.quiet);
   const TrackColumns columns = options.plots ? innovation_columns() : TrackColumns();
-  RunWriter files(folder, objects, sensor_names(scene), columns);
+  RunWriter files(folder, objects, sensor_names(scene), columns, scene.record.columns);
   const RunMetricsOptions scoring = scoring_for(traits_of(scene.sensors));
   RunMetrics metrics(objects, scoring, 0,
                      FilterTheory{contenders.front().tracker.design(), scene.sensors});
@@ -159,6 +159,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   write_json(report, [&](std::string_view text) { scores.write(text); });
   scores.commit();
   files.commit();
+  if (scene.record.events) write_events(folder / "events.csv", truth.events(), objects);
   if (history) write_smoothed_tracks(folder / "tracks.csv", history->history(), columns);
   if (matches) matches->commit();
   if (options.plots) write_plots(folder, scoring, scene.name);
