@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +24,7 @@ struct CompareConfig {
   std::optional<LaunchScatter> launch;
   std::map<std::string, std::vector<double>> sweep;  // by a key of the scene
   std::map<std::string, FilterConfig> filters;       // by a name of your choice
+  std::vector<std::string> order;  // names of those that come first; the others follow by name
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -42,6 +45,29 @@ struct CompareConfig {
              .max_items = 100});
     v.field("filters", &CompareConfig::filters,
             {.meaning = "filters by a name of your choice, used for every target"});
+    v.field("order", &CompareConfig::order,
+            {.meaning = "names of the filters in the order in which tables and videos show them; "
+                        "those that are left out follow by name",
+             .max_items = 1000});
+  }
+
+  /// The names of all filters, in order.
+  std::vector<std::string> names() const {
+    std::vector<std::string> all = order;
+    for (const auto& [name, filter] : filters) {
+      if (std::find(order.begin(), order.end(), name) == order.end()) all.push_back(name);
+    }
+    return all;
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::string key = "order[" + std::to_string(i) + "]";
+      const auto here = order.begin() + static_cast<std::ptrdiff_t>(i);
+      if (!filters.contains(order[i])) report(key, "no filter under 'filters' has that name");
+      if (std::find(order.begin(), here, order[i]) != here) report(key, "this name is there twice");
+    }
   }
 };
 

@@ -34,34 +34,18 @@
 #include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
 #include "tools/run/run.hpp"
+#include "tools/run/track_history.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Beyond, what is said in hindsight would take longer than the run, and is not said.
-
 std::vector<std::string> sensor_names(const WorldScene& scene) {
   std::vector<std::string> names;
   for (const SensorConfig& sensor : scene.sensors) names.push_back(sensor.name);
   return names;
 }
-
-/// Keeps what the scene's own tracker says.
-class HistoryObserver final : public RunObserver {
- public:
-  explicit HistoryObserver(const TrackerDesign& design) : history_(design) {}
-
-  void add_tracks(const StepRecord& record) override {
-    if (record.contender != 0 || !record.is_in_order()) return;
-    history_.add(record.tracks, record.observation.scan);
-  }
-  const TrackHistory& history() const { return history_; }
-
- private:
-  TrackHistory history_;
-};
 
 void warn_of_missed_collisions(const TruthSource& truth, const WorldScene& scene) {
   if (truth.missed_collisions() == 0) return;
@@ -132,7 +116,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   if (matches) observers.push_back(&*matches);
   if (film) observers.push_back(&*film);
   std::optional<HistoryObserver> history;
-  if (options.smooth) observers.push_back(&history.emplace(contenders.front().tracker.design()));
+  if (options.smooth) observers.push_back(&history.emplace(contenders.front().tracker.design(), 0));
   TruthSource& truth = film ? film->truth() : simulated;
   std::vector<RunCounts> counts;
   try {
