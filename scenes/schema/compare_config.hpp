@@ -1,15 +1,27 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/copies.hpp"
 #include "tracker/filters/filter.hpp"
 
 namespace ghtrack {
+
+/// Filters that are tuned before they are compared.
+enum class TunedKind { kGh, kGhk, kKalman, kImm };
+
+constexpr std::array<std::pair<std::string_view, TunedKind>, 4> enum_names(TunedKind) {
+  return {{{"gh", TunedKind::kGh},
+           {"ghk", TunedKind::kGhk},
+           {"kalman", TunedKind::kKalman},
+           {"imm", TunedKind::kImm}}};
+}
 
 /// What `ghtrack compare` sets side by side on this scene.
 struct CompareConfig {
@@ -22,6 +34,7 @@ struct CompareConfig {
   std::optional<LaunchScatter> launch;
   std::map<std::string, std::vector<double>> sweep;  // by a key of the scene
   std::map<std::string, FilterConfig> filters;       // by a name of your choice
+  std::vector<TunedKind> tuned;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -42,6 +55,11 @@ struct CompareConfig {
              .max_items = 100});
     v.field("filters", &CompareConfig::filters,
             {.meaning = "filters by a name of your choice, used for every target"});
+    v.field("tuned", &CompareConfig::tuned,
+            {.meaning = "kinds of filters that `ghtrack compare` tunes, for each combination of the "
+                        "sweep on its own, on up to 50 runs that it then does not compare: g-h, "
+                        "g-h-k, the better of both Kalman filters, interacting Kalman filters",
+             .max_items = 4});
   }
 };
 

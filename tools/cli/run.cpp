@@ -40,8 +40,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beyond, what is said in hindsight would take longer than the run, and is not said.
-
 std::vector<std::string> sensor_names(const WorldScene& scene) {
   std::vector<std::string> names;
   for (const SensorConfig& sensor : scene.sensors) names.push_back(sensor.name);
@@ -154,9 +152,9 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunReport report = metrics.report();
   report.counts = counts.front();
-  if (labelled.is_complete()) 
-    add_hindsight(report, std::move(labelled).objects(), scene.sensors, stop_if_interrupted);
-  
+  if (labelled.is_complete()) {
+    add_hindsight(report, std::move(labelled).objects(), scene, stop_if_interrupted);
+  }
   if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   AtomicFile scores(folder / "metrics.json");

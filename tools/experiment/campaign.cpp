@@ -100,7 +100,10 @@ Campaign read_campaign(std::span<const std::string> files, const CampaignOptions
       CampaignCell& cell = campaign.cells.emplace_back();
       cell.scene = settings.empty() ? scene : read_world(file, overrides);
       cell.scene.compare.sweep.clear();
-      if (!options.filters.empty()) cell.scene.compare.filters = options.filters;
+      if (!options.filters.empty()) {
+        cell.scene.compare.filters = options.filters;
+        cell.scene.compare.tuned.clear();
+      }
       if (options.runs > 0) cell.scene.compare.runs = options.runs;
       cell.file = file;
       cell.sweep = joined(settings);

@@ -194,7 +194,7 @@ py::object run_scene(const std::string& text, const std::string& name,
       report = metrics.report();
       report.counts = counts.front();
       if (labelled.is_complete()) {
-        add_hindsight(report, std::move(labelled).objects(), scene->sensors, [] {});
+        add_hindsight(report, std::move(labelled).objects(), *scene, [] {});
       }
     }
   }

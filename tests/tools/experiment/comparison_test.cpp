@@ -36,7 +36,7 @@ const ComparisonRow& row_of(const Comparison& comparison, const std::string& fil
 }
 
 Comparison compared(const Campaign& campaign, int jobs = 1) {
-  return ghtrack::compare(campaign, all_results(campaign, jobs), jobs);
+  return ghtrack::compare(campaign, groups_by_truth(campaign), all_results(campaign, jobs), jobs);
 }
 Comparison compared(const std::string& compare, int jobs = 1) {
   return compared(campaign_of_scene(steady_scene(compare)), jobs);
