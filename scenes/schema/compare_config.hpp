@@ -1,17 +1,29 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/copies.hpp"
 #include "tracker/filters/filter.hpp"
 
 namespace ghtrack {
+
+/// Filters that are tuned before they are compared.
+enum class TunedKind { kGh, kGhk, kKalman, kImm };
+
+constexpr std::array<std::pair<std::string_view, TunedKind>, 4> enum_names(TunedKind) {
+  return {{{"gh", TunedKind::kGh},
+           {"ghk", TunedKind::kGhk},
+           {"kalman", TunedKind::kKalman},
+           {"imm", TunedKind::kImm}}};
+}
 
 /// What `ghtrack compare` sets side by side on this scene.
 struct CompareConfig {
@@ -25,6 +37,7 @@ struct CompareConfig {
   std::map<std::string, std::vector<double>> sweep;  // by a key of the scene
   std::map<std::string, FilterConfig> filters;       // by a name of your choice
   std::vector<std::string> order;  // names of those that come first; the others follow by name
+  std::vector<TunedKind> tuned;
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -49,6 +62,11 @@ struct CompareConfig {
             {.meaning = "names of the filters in the order in which tables and videos show them; "
                         "those that are left out follow by name",
              .max_items = 1000});
+    v.field("tuned", &CompareConfig::tuned,
+            {.meaning = "kinds of filters that `ghtrack compare` tunes, for each combination of the "
+                        "sweep on its own, on up to 50 runs that it then does not compare: g-h, "
+                        "g-h-k, the better of both Kalman filters, interacting Kalman filters",
+             .max_items = 4});
   }
 
   /// The names of all filters, in order.

@@ -71,6 +71,7 @@ concept IsMotionModel = std::copyable<typename M::State> &&
 ///   hasten(by)     changes the velocity with which it begins [m/s], as far as its track, route or
 ///                  rod lets it: by the part along it
 ///   unreleasable() why nothing can let go of it on the way; empty: something can
+/// One whose motion is random by a known law may offer that, too: see motion_law.hpp.
 template <class R>
 concept IsRegime = IsMotionModel<typename R::Model> &&
     std::constructible_from<typename R::Model, const R&> && requires(R regime, const Vec2& by) {

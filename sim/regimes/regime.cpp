@@ -10,6 +10,15 @@ std::string_view kind_of(const Regime& regime) {
   return std::visit([](const auto& r) { return std::decay_t<decltype(r)>::kind; }, regime);
 }
 
+std::optional<MotionLaw> law_of(const Regime& regime, const EnvironmentConfig& environment) {
+  return std::visit(
+      [&](const auto& r) -> std::optional<MotionLaw> {
+        if constexpr (requires { r.law(environment); }) return r.law(environment);
+        return std::nullopt;
+      },
+      regime);
+}
+
 std::vector<std::string> regime_kinds() {
   return []<class... R>(std::type_identity<std::variant<R...>>) {
     return std::vector<std::string>{std::string(R::kind)...};

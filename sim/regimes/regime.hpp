@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "sim/motion_law.hpp"
 #include "sim/regimes/balloon.hpp"
 #include "sim/regimes/drone.hpp"
 #include "sim/regimes/motion.hpp"
@@ -29,6 +31,10 @@ static_assert(all_are_regimes<Regime>,
 
 /// The name of the regime: "train", "ball", "balloon", …
 std::string_view kind_of(const Regime& regime);
+
+/// The law by which it moves, if it is known and as simple as MotionLaw says; random as the noise of
+/// its own, and from a start that is known exactly.
+std::optional<MotionLaw> law_of(const Regime& regime, const EnvironmentConfig& environment);
 
 /// The names of all regimes, in the order of the list.
 std::vector<std::string> regime_kinds();

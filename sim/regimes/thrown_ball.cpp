@@ -96,6 +96,15 @@ void ThrownBall::hasten(const Vec2& by) {
   angle_deg.reset();
 }
 
+std::optional<MotionLaw> ThrownBall::law(const EnvironmentConfig& environment) const {
+  const bool is_empty = environment.air.density == 0.0 && !environment.ground &&
+                        environment.walls.empty() && environment.boxes.empty();
+  if (juggle || !is_empty) return std::nullopt;
+  MotionLaw law = drifting();
+  law.holds_alone = true;
+  return law;
+}
+
 BallModel::BallModel(const ThrownBall& ball)
     : ball_(ball),
       spin_(ball.spin_rpm ? *ball.spin_rpm * 2.0 * portable::kPi / 60.0 : ball.spin.value_or(0.0)),

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "sim/motion_law.hpp"
 #include "sim/regimes/free_flight.hpp"
 #include "sim/regimes/juggling.hpp"
 #include "sim/regimes/motion.hpp"
@@ -92,6 +93,8 @@ struct ThrownBall {
 
   void shift(const Vec2& by);
   void hasten(const Vec2& by);
+  /// A parabola, where there is neither air nor anything to bounce on.
+  std::optional<MotionLaw> law(const EnvironmentConfig& environment) const;
   std::string_view unreleasable() const {
     return juggle ? "the juggler's hands throw this ball" : "";
   }

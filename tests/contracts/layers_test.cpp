@@ -50,7 +50,7 @@ const std::map<std::string, Folders> kAllowed = {
       "scenes", "sim", "sensors", "tracker"}},
     {"tools/experiment",
      {"tools/run", "tools/metrics", "tools/record", "scenes", "sim", "sensors", "tracker"}},
-    {"tools/plot", {"tools/metrics", "tools/data", "tools/record"}},
+    {"tools/plot", {"tools/metrics", "tools/data", "tools/record", "tracker"}},
     {"tools/html", {}},
     {"tools/playground", {"tools/html", "tools/run/series.hpp", "tracker/filters"}},
     {"tools/report",

@@ -26,6 +26,7 @@
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/journal.hpp"
 #include "tools/experiment/run_table.hpp"
+#include "tools/experiment/tuned_cells.hpp"
 #include "tools/page/page.hpp"
 #include "tools/ranks/ranks.hpp"
 #include "tools/record/atomic_file.hpp"
@@ -74,6 +75,44 @@ Shard parse_shard(const std::string& text) {
 
 int threads(const CompareOptions& options) {
   return options.jobs.value_or(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+}
+
+/// Tunes the filters that the cells ask for, or takes them from files of the folder that an earlier
+/// command, another part or another rank has left there. Ranks share the cells.
+Campaign with_tuned_filters(Campaign campaign, const fs::path& folder,
+                            const CompareOptions& options) {
+  const std::vector<std::size_t> untuned = untuned_cells(campaign);
+  if (untuned.empty()) return campaign;
+  Ranks& ranks = join_ranks();
+  const bool takes_files = options.resume || options.run || !options.shard.empty();
+  make_folder(folder);
+  std::vector<fs::path> files;
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < untuned.size(); ++i) {
+    files.push_back(folder / tuning_file(campaign.cells[untuned[i]]));
+    const bool is_own = static_cast<int>(i) % ranks.count() == ranks.index();
+    if (is_own && !(takes_files && fs::exists(files.back()))) own.push_back(i);
+  }
+  constexpr std::size_t kAtOnce = 16;  // after which files are written
+  for (std::size_t first = 0; first < own.size(); first += kAtOnce) {
+    std::vector<std::size_t> cells;
+    const std::size_t last = std::min(own.size(), first + kAtOnce);
+    for (std::size_t i = first; i < last; ++i) cells.push_back(untuned[own[i]]);
+    Campaign tuned = campaign;
+    tune_cells(tuned, cells, threads(options), stop_if_interrupted);
+    for (std::size_t i = first; i < last; ++i) {
+      const CompareConfig& compare = tuned.cells[untuned[own[i]]].scene.compare;
+      write_file(files[own[i]], schema::write_configuration(compare));
+    }
+  }
+  ranks.wait_for_all(stop_if_interrupted);
+  for (std::size_t i = 0; i < untuned.size(); ++i) {
+    CompareConfig& compare = campaign.cells[untuned[i]].scene.compare;
+    compare.filters =
+        schema::read_configuration_file<CompareConfig>(files[i].string()).filters;
+    compare.tuned.clear();
+  }
+  return campaign;
 }
 
 /// A campaign with what its stages share.
@@ -218,17 +257,19 @@ void compute_part(const Study& study, const std::optional<Shard>& part, const fs
 
 int compare(const CompareOptions& options, const Manners& manners) {
   if (!options.merge.empty()) return merge(options, manners);
-  const Campaign campaign = campaign_from(options);
+  Campaign campaign = campaign_from(options);
   const fs::path folder = folder_named(options.output.empty() ? "out/comparison" : options.output);
+  std::optional<Shard> part;
+  if (!options.shard.empty()) part = parse_shard(options.shard);
   if (options.run) {
+    campaign = with_tuned_filters(std::move(campaign), folder, options);
     replay_run(campaign, *options.run, options.video ? std::optional(folder) : std::nullopt,
                manners);
     return 0;
   }
-  std::optional<Shard> part;
-  if (!options.shard.empty()) part = parse_shard(options.shard);
   make_folder(folder);
   try {
+    campaign = with_tuned_filters(std::move(campaign), folder, options);
     compute_part(Study{campaign}, part, folder, options, manners);
   } catch (Interrupted& interrupted) {
     interrupted.remark =

@@ -1,4 +1,4 @@
-// `ghtrack plot`: a run, tracks or a series as a figure.
+// `ghtrack plot`: a run, tracks, a series or a comparison as a figure.
 
 #include <fmt/format.h>
 
@@ -13,6 +13,7 @@
 #include "tools/cli/usage_error.hpp"
 #include "tools/plot/figure_file.hpp"
 #include "tools/plot/series_figure.hpp"
+#include "tools/plot/study_figure.hpp"
 #include "tools/plot/track_figure.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/record/mot_file.hpp"
@@ -41,11 +42,17 @@ plot::Figure figure_of(const PlotOptions& options) {
   const fs::path source = options.source;
   std::error_code ignored;
   const bool is_run = fs::is_directory(source, ignored);
+  if (is_run && is_there(source / "comparison.json")) {
+    return plot::figure_of_study((source / "comparison.json").string(), options.title);
+  }
+  if (!is_run && plot::is_comparison_file(source.string())) {
+    return plot::figure_of_study(source.string(), options.title);
+  }
   if (is_run && is_there(source / "series.csv")) {
     return plot::figure_of_series((source / "series.csv").string(), {.title = options.title});
   }
   if (is_run && !is_there(source / "tracks.csv")) {
-    throw InputError(source.string() + ": error: the folder holds neither tracks.csv nor series.csv");
+    throw InputError(source.string() + ": error: the folder holds none of tracks.csv, series.csv and comparison.json");
   }
   if (!is_run && !looks_like_mot_file(source) && plot::is_series_file(source.string())) {
     return plot::figure_of_series(source.string(), {.title = options.title});

@@ -136,7 +136,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunReport report = metrics.report();
   report.counts = counts.front();
-  add_hindsight(report, std::move(labelled).objects(), scene.sensors, stop_if_interrupted);
+  add_hindsight(report, std::move(labelled).objects(), scene, stop_if_interrupted);
   if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   AtomicFile scores(folder / "metrics.json");

@@ -10,6 +10,7 @@
 #include "tools/experiment/analysis.hpp"
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/trial.hpp"
+#include "tracker/filters/gains/rules.hpp"
 
 namespace ghtrack {
 namespace {
@@ -87,7 +88,11 @@ class CellReduction {
       const SampleMean predicted =
           mean_of(values_.at(layout_.predicted(contender, subject, metric)), info(metric).average);
       if (predicted.values == mean.values) row.predicted = predicted.mean;
-      if (metric == Metric::kRmsePosition) row.hindsight = theory.hindsight;
+      if (metric == Metric::kRmsePosition) {
+        row.hindsight = theory.hindsight;
+        row.tracking_index = tracking_index(std::sqrt(0.5 * theory.square_acceleration),
+                                            trial_.scoring().sigma, trial_.scoring().period);
+      }
       values.push_back(std::move(of_runs));
     }
     if (info(metric).better != Better::kNeither && rows.size() > 1) judge(subject, values, rows);
@@ -120,7 +125,8 @@ class CellReduction {
     }
     if (!best) return;
 
-    const double confidence = 1.0 - (1.0 - kConfidence) / static_cast<double>(rows.size() - 1);
+    const std::vector<PairedDifference> differences =
+        differences_to(*best, values, average, sign);
     const double negligible = kNegligible * std::abs(middle(*best));
     Significance of_best = Significance::kBest;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -129,8 +135,7 @@ class CellReduction {
         row.difference = 0.0;
         continue;
       }
-      const PairedDifference difference =
-          paired_difference(values[i], values[*best], average, confidence);
+      const PairedDifference& difference = differences[i];
       if (!std::isnan(difference.value)) row.difference = difference.value;
       row.difference_ci95 = difference.interval;
       row.significance = loses[i] ? Significance::kWorse : verdict_on(difference, sign, negligible);
@@ -140,6 +145,30 @@ class CellReduction {
       of_best = weaker(of_best, row.significance);
     }
     rows[*best].significance = of_best;
+  }
+
+  /// Differences to one of several samples, with intervals that hold for all together (Holm 1979):
+  /// the clearest of m differences is asked for a confidence of 1 − 0.05 / m; once some exclude zero,
+  /// those that are left share the 0.05 among themselves.
+  static std::vector<PairedDifference> differences_to(
+      std::size_t best, const std::vector<std::vector<double>>& values, Average average,
+      double sign) {
+    std::vector<PairedDifference> differences(values.size());
+    std::vector<bool> is_clear(values.size(), false);
+    is_clear[best] = true;
+    std::size_t left = values.size() - 1;
+    for (std::size_t before = left + 1; left > 0 && left < before;) {
+      before = left;
+      const double confidence = 1.0 - (1.0 - kConfidence) / static_cast<double>(before);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (is_clear[i]) continue;
+        differences[i] = paired_difference(values[i], values[best], average, confidence);
+        const auto& interval = differences[i].interval;
+        is_clear[i] = interval && (sign > 0.0 ? interval->low > 0.0 : interval->high < 0.0);
+        if (is_clear[i]) --left;
+      }
+    }
+    return differences;
   }
 
   /// Which filters lose their objects much more often than the most faithful one, beyond chance.
@@ -209,16 +238,18 @@ class CellReduction {
   ResultColumns values_;
 };
 
-CellOutcome outcome_of(const CampaignCell& cell, const SharedTruth& truths, const Results& results,
+CellOutcome outcome_of(const CampaignCell& cell, const SharedTruth& truth, const Results& results,
                        std::size_t index, int jobs, const std::function<void()>& on_step) {
   const Trial trial(cell.scene, on_step);
-  const RunTruth truth = truths.of_run(0, true);
+  const RunTruth first = truth.of_run(0, true);
+  const LabelledRuns runs =
+      theory_runs(trial, 0, cell.runs(), jobs, [&](int run) { return truth.of_run(run, false); });
   const CellReduction reduction(trial, results.columns(index));
   CellOutcome outcome;
   for (const Contender& contender : trial.contenders()) {
     outcome.contenders.push_back(contender.name);
   }
-  outcome.rows = reduction.rows(theory_of(trial, truths, 0, cell.runs(), jobs), jobs);
+  outcome.rows = reduction.rows(theory_of(trial, runs, jobs), jobs);
   outcome.cell = {.scene = cell.scene.name,
                   .file = cell.file,
                   .sweep = cell.sweep,
@@ -229,8 +260,8 @@ CellOutcome outcome_of(const CampaignCell& cell, const SharedTruth& truths, cons
                   .period = trial.scoring().period,
                   .regimes = trial.regimes(),
                   .curves = reduction.curves(),
-                  .example = example_of(trial, truth),
-                  .surfaces = gain_surfaces(trial, truth, jobs)};
+                  .example = example_of(trial, first),
+                  .surfaces = gain_surfaces(trial, first, jobs)};
   return outcome;
 }
 
@@ -256,13 +287,13 @@ void renumber(CellOutcome& outcome, std::vector<std::string>& filters) {
 
 Comparison compare(const Campaign& campaign, std::span<const CellGroup> groups,
                    const Results& results, int jobs, const std::function<void()>& on_step) {
-  std::vector<CellOutcome> outcomes(campaign.cells.size());
-  std::vector<const SharedTruth*> truths(campaign.cells.size());
+  std::vector<const SharedTruth*> truth(campaign.cells.size());
   for (const CellGroup& group : groups) {
-    for (const std::size_t cell : group.cells) truths[cell] = group.truth.get();
+    for (const std::size_t cell : group.cells) truth[cell] = group.truth.get();
   }
+  std::vector<CellOutcome> outcomes(campaign.cells.size());
   in_parallel(outcomes.size(), jobs, [&](std::size_t i) {
-    outcomes[i] = outcome_of(campaign.cells[i], *truths[i], results, i, jobs, on_step);
+    outcomes[i] = outcome_of(campaign.cells[i], *truth[i], results, i, jobs, on_step);
   });
   Comparison comparison;
   for (CellOutcome& outcome : outcomes) {

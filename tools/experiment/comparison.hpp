@@ -23,7 +23,7 @@
 namespace ghtrack {
 
 /// Whether a filter is better than all others, judged by 95 % intervals of its differences to the
-/// best one on the same runs, which hold for all filters together (Bonferroni).
+/// best one on the same runs, which hold for all filters together (Holm).
 enum class Significance {
   kNone,       // not comparable: one filter, or a metric without better and worse
   kTooFew,     // runs to judge by
@@ -50,6 +50,7 @@ struct ComparisonRow {
   bool has_heavy_tails = false;         // few runs make most of the mean: the median is what counts
   std::optional<double> predicted;      // by the filter's closed forms
   Hindsight hindsight;                  // of its subject; empty but for the RMSE of position
+  std::optional<double> tracking_index;  // of its subject, a T² / σ; as the hindsight
   std::int64_t runs = 0;                // in which the metric has a value
   std::optional<double> difference;     // to the best filter's mean; 0 for itself
   std::optional<Interval> difference_ci95;  // paired by runs; absent for the best itself
@@ -127,7 +128,8 @@ struct Comparison {
 };
 
 /// Averages the results of a campaign and sets theory beside them.
-/// @param groups   the campaign's cells by their truth
+/// @param groups   the campaign's cells by their truth, as for compute(): what that has recorded is
+///                 gone through again
 /// @param results  of all runs
 /// @param jobs     threads; the outcome does not depend on them
 /// @param on_step  called again and again by all threads; may throw to give up

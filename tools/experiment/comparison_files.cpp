@@ -36,7 +36,8 @@ Json range(const std::optional<Interval>& interval) {
 
 Json row_json(const ComparisonRow& row, const Comparison& comparison) {
   const ComparedCell& cell = comparison.cells[row.cell];
-  return {{"scene", cell.scene},
+  Json json = {
+          {"scene", cell.scene},
           {"sweep", cell.sweep},
           {"regime", row.regime},
           {"object", row.object},
@@ -47,19 +48,20 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
           {"mean", number(row.mean)},
           {"ci95", range(row.ci95)},
           {"interval", interval_kind(info(row.metric).average)},
-          {"predicted", number(row.predicted)},
-          {"raw", number(row.hindsight.raw)},
-          {"best_fixed_gains", number(row.hindsight.best_fixed_gains)},
-          {"crlb", nullptr},
-          {"smoother", number(row.hindsight.smoother)},
-          {"runs", row.runs},
+          {"predicted", number(row.predicted)}};
+  for (const Reference& reference : kReferences) {
+    json[std::string(reference.name)] = number(row.hindsight.*reference.value);
+  }
+  json.update({{"runs", row.runs},
           {"difference", number(row.difference)},
           {"difference_ci95", range(row.difference_ci95)},
           {"verdict", to_string(row.significance)},
           {"runs_to_decide", number(row.runs_to_decide)},
           {"median", number(row.median)},
           {"median_ci95", range(row.median_ci95)},
-          {"heavy_tails", row.has_heavy_tails}};
+          {"heavy_tails", row.has_heavy_tails},
+          {"tracking_index", number(row.tracking_index)}});
+  return json;
 }
 
 Json curve_json(const ErrorCurve& curve, const Comparison& comparison) {
@@ -141,7 +143,7 @@ std::string lost_text_of(const TableRows& tracked, const TableKey& key, std::siz
 std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "scene,regime,object,filter,gains,metric,mean,ci95_low,ci95_high,predicted,runs,sweep,unit,"
-      "interval,raw,best_fixed_gains,crlb,smoother,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails\n";
+      "interval,raw,best_fixed_gains,crlb,smoother,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails,tracking_index\n";
   CsvRow line;
   for (const ComparisonRow& row : comparison.rows) {
     const ComparedCell& cell = comparison.cells[row.cell];
@@ -149,10 +151,10 @@ std::string comparison_csv(const Comparison& comparison) {
     line << cell.scene << row.regime << row.object << comparison.filters[row.filter] << row.gains
          << info(row.metric).name << row.mean << low(row.ci95) << high(row.ci95) << row.predicted
          << row.runs << cell.sweep << info(row.metric).unit << interval_kind(info(row.metric).average)
-         << row.hindsight.raw << row.hindsight.best_fixed_gains << std::string_view()
+         << row.hindsight.raw << row.hindsight.best_fixed_gains << row.hindsight.crlb
          << row.hindsight.smoother << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
          << to_string(row.significance) << row.runs_to_decide << row.median
-         << low(row.median_ci95) << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "");
+         << low(row.median_ci95) << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "") << row.tracking_index;
     line.end();
     text += line.text();
   }
@@ -185,8 +187,14 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
     columns.push_back({printable(comparison.filters[i], 20), 20, true});
     if (loses(i)) columns.push_back({"lost %", 6, true});
   }
-  for (const char* reference : {"raw", "best fixed", "smoother"}) {
-    columns.push_back({reference, 10, true});
+  std::vector<Reference> references;  // that are known of any line
+  for (const Reference& reference : kReferences) {
+    const bool is_known = std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
+      return (line.second.begin()->second->hindsight.*reference.value).has_value();
+    });
+    if (!is_known) continue;
+    references.push_back(reference);
+    columns.push_back({std::string(reference.title), 10, true});
   }
   std::vector<std::vector<std::string>> table;
   for (const auto& [key, filters] : lines) {
@@ -197,9 +205,9 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
       if (loses(i)) line.push_back(lost_text_of(tracked, key, i));
     }
     const Hindsight& hindsight = filters.begin()->second->hindsight;
-    for (const auto& reference :
-         {hindsight.raw, hindsight.best_fixed_gains, hindsight.smoother}) {
-      line.push_back(reference ? fmt::format("{:.3g}", *reference) : "");
+    for (const Reference& reference : references) {
+      const std::optional<double>& rmse = hindsight.*reference.value;
+      line.push_back(rmse ? fmt::format("{:.3g}", *rmse) : "");
     }
   }
   std::string text =
@@ -207,7 +215,8 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
       "the best, ? undecided, few: too few runs to tell; ~ the median of the runs, where few may make\n"
       "most of the mean. lost %: scans in which an object was not followed, which no RMSE counts.\n"
       "raw: the detections; best fixed: expected of the best fixed gains, chosen afterwards, knowing\n"
-      "which detection is whose; smoother: of one that also knows all later detections\n\n" +
+      "which detection is whose; CRLB: below which no filter can be, where the motion is random by a\n"
+      "law that is known; smoother: of one that also knows all later detections\n\n" +
       text_table(columns, table, {.width = width, .repeated = 2});
   if (const auto runs = runs_to_decide(comparison)) {
     text += fmt::format("About {:.0f} runs would decide what is undecided.\n", *runs);

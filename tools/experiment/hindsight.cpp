@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "tools/experiment/engine.hpp"
-#include "tools/experiment/even_objects.hpp"
 #include "tools/experiment/gain_search.hpp"
+#include "tools/experiment/seen_alike.hpp"
 #include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/axis_covariance.hpp"
 #include "tracker/filters/gains/rules.hpp"
@@ -17,9 +17,10 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::infinity();
-constexpr double kDiffuse = 100.0;             // a start's uncertainty, in sigmas per period
-constexpr double kMostLooks = 20'000.0;  // at all objects of a run
+constexpr double kDiffuse = 100.0;  // a start's uncertainty, in sigmas per period
+constexpr double kMostLooks = 20'000.0;        // at all objects of a run
 constexpr std::size_t kMostSmoothed = 20'000;  // scans
+constexpr std::size_t kMostShadowed = 4'000;   // with errors of all kinds
 
 /// Along tracking indices from a target that hardly manoeuvres to one that does nothing else.
 FoundNumber least_over_indices(const std::function<double(double)>& cost) {
@@ -32,19 +33,16 @@ class Judge {
   Judge(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
         const RunMetricsOptions& scoring, const std::function<void()>& on_step)
       : objects_(objects), sensors_(sensors), scoring_(scoring), on_step_(on_step) {
+    design_ = best_sensor(sensors);
     for (const SensorConfig& sensor : sensors) {
       const auto* position = std::get_if<PositionSensor>(&sensor.model);
       const auto parts = error_parts(sensor);
       errors_.push_back(parts.value_or(std::vector<ErrorPart>{}));
       has_variance_ = has_variance_ && parts;
-      is_plain_ = is_plain_ && position != nullptr && position->bias.isZero() &&
-                  !sensor.student_dof && sensor.outlier_probability == 0.0;
+      is_plain_ = is_plain_ && position != nullptr && position->bias.isZero() && !sensor.student_dof &&
+                  sensor.outlier_probability == 0.0;
     }
-    if (is_plain_) {
-      even_ = EvenObjects::among(objects_, others_);
-    } else {
-      others_.assign(objects_.begin(), objects_.end());
-    }
+    if (is_plain_) alike_ = seen_alike(objects);
   }
 
   bool has_variance() const { return has_variance_; }
@@ -53,12 +51,12 @@ class Judge {
   double expected(const GainFilter<2>& filter) const {
     on_step_();
     Mean squares;
-    if (even_) squares += even_->expected_error(filter);
-    for (const LabelledObject* object : others_) {
-      if (is_plain_) {
-        squares += expected_errors(filter, *object).position;
-      } else {
+    for (const SeenAlike& group : alike_) squares += group.expected_squares(filter);
+    if (!is_plain_) {
+      std::size_t scans = 0;
+      for (const LabelledObject* object : objects_) {
         squares += expected_errors(filter, *object, sensors_, errors_).position;
+        if ((scans += object->scans.size()) > kMostShadowed) break;
       }
     }
     return squares.root().value_or(kNoValue);
@@ -66,13 +64,8 @@ class Judge {
 
   /// The gains of a search as a filter of a scene has them.
   GainFilter<2> with(const Gains& gains) const {
-    GainSchedule schedule;
-    schedule.steady = gains;
-    schedule.interval = scoring_.period;
-    schedule.irregular_time = IrregularTime::kGainsFromCovariance;
-    ErrorModel errors;
-    errors.sigma = scoring_.sigma;
-    return {schedule, errors};
+    if (gains.order == 0) return manual<0>(gains);
+    return gains.order == 1 ? manual<1>(gains) : manual<2>(gains);
   }
 
   /// Kalata's gains in the steady state, and Kalman's on the way there.
@@ -81,9 +74,9 @@ class Judge {
     GainFilterConfig<Order> config;
     config.design = gain_design::TrackingIndex<Order>{.index = index};
     config.schedule = GainSource::kCovariance;
-    config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
-    config.initial_acceleration = config.initial_speed / scoring_.period;
-    return std::get<GainFilter<2>>(make_filter(config, scoring_.sigma, scoring_.period));
+    config.initial_speed = kDiffuse * design_.sigma / design_.period;
+    config.initial_acceleration = config.initial_speed / design_.period;
+    return std::get<GainFilter<2>>(make_filter(config, design_.sigma, design_.period));
   }
 
   double raw() const {
@@ -110,14 +103,8 @@ class Judge {
     config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
     config.initial_acceleration = config.initial_speed / scoring_.period;
     Mean squares;
-    if (even_) {
-      squares += even_->smoothed_error(Order,
-                                       process_noise(ProcessModel::kPiecewiseConstant, Order,
-                                                     noise.process_noise, scoring_.period),
-                                       {0.0, config.initial_speed, config.initial_acceleration});
-    }
     std::size_t scans = 0;
-    for (const LabelledObject* object : others_) {
+    for (const LabelledObject* object : objects_) {
       squares += smoothed_errors(config, scoring_, *object).position;
       if ((scans += object->scans.size()) > kMostSmoothed) break;
     }
@@ -125,63 +112,87 @@ class Judge {
   }
 
  private:
+  template <int Order>
+  GainFilter<2> manual(const Gains& gains) const {
+    GainFilterConfig<Order> config;
+    config.design = gain_design::Manual<Order>{gains.g, gains.h, gains.k};
+    return std::get<GainFilter<2>>(make_filter(config, design_.sigma, design_.period));
+  }
+
   const ObjectsOfRuns& objects_;
   std::span<const SensorConfig> sensors_;
   const RunMetricsOptions& scoring_;
+  SensorTraits design_;  // that filters are made for
   const std::function<void()>& on_step_;
   std::vector<std::vector<ErrorPart>> errors_;
-  std::optional<EvenObjects> even_;            // go through a filter together,
-  std::vector<const LabelledObject*> others_;  // one by one
-  bool is_plain_ = true;
+  bool is_plain_ = true;  // errors are what detections tell
+  std::vector<SeenAlike> alike_;  // if so
   bool has_variance_ = true;
 };
 
-/// The best fixed gains: along the curve of each order first, then off it.
+/// The best fixed gains of an order: along Kalata's curve first, then off it.
+FoundGains best_of_order(const Judge& judge, int order) {
+  const FoundNumber on = least_over_indices(
+      [&](double index) { return judge.expected(judge.with(tracking_index_gains(order, index))); });
+  const Gains start = tracking_index_gains(order, on.at);
+  if (order == 0) return {start, on.cost};
+  const FoundGains off = least_cost_near(
+      start, [&](const Gains& gains) { return judge.expected(judge.with(gains)); });
+  return off.cost < on.cost ? off : FoundGains{start, on.cost};
+}
+
+/// Of all orders, and of filters that start as Kalman's.
 void find_best_gains(const Judge& judge, Hindsight& found) {
   double least = kNoValue;
-  const auto keep = [&](const Gains& gains, double cost) {
-    if (!(cost < least)) return;
-    least = cost;
-    found.best = gains;
+  const auto keep = [&](const FoundGains& candidate) {
+    if (!(candidate.cost < least)) return;
+    least = candidate.cost;
+    found.best = candidate.gains;
   };
-  for (const int order : {0, 1, 2}) {
-    const FoundNumber on = least_over_indices([&](double index) {
-      return judge.expected(judge.with(tracking_index_gains(order, index)));
-    });
-    const Gains start = tracking_index_gains(order, on.at);
-    keep(start, on.cost);
-    if (order == 0) continue;
-    const FoundGains off = least_cost_near(
-        start, [&](const Gains& gains) { return judge.expected(judge.with(gains)); });
-    keep(off.gains, off.cost);
-  }
-  const FoundNumber cv =
-      least_over_indices([&](double index) { return judge.expected(judge.kalman_like<1>(index)); });
-  keep(tracking_index_gains(1, cv.at), cv.cost);
-  const FoundNumber ca =
-      least_over_indices([&](double index) { return judge.expected(judge.kalman_like<2>(index)); });
-  keep(tracking_index_gains(2, ca.at), ca.cost);
+  for (const int order : {0, 1, 2}) keep(best_of_order(judge, order));
+  const FoundNumber cv = least_over_indices(
+      [&](double index) { return judge.expected(judge.kalman_like<1>(index)); });
+  keep({tracking_index_gains(1, cv.at), cv.cost});
+  const FoundNumber ca = least_over_indices(
+      [&](double index) { return judge.expected(judge.kalman_like<2>(index)); });
+  keep({tracking_index_gains(2, ca.at), ca.cost});
   if (std::isfinite(least)) found.best_fixed_gains = least;
 }
 
 }  // namespace
 
+SensorTraits best_sensor(std::span<const SensorConfig> sensors) {
+  std::vector<SensorTraits> traits;
+  for (const SensorConfig& sensor : sensors) traits.push_back(traits_of(sensor));
+  return *std::min_element(traits.begin(), traits.end(), [](const auto& a, const auto& b) {
+    return a.sigma * a.sigma * a.period < b.sigma * b.sigma * b.period;
+  });
+}
+
+std::optional<Gains> best_gains(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
+                                const RunMetricsOptions& scoring, int order,
+                                const std::function<void()>& on_step) {
+  const Judge judge(objects, sensors, scoring, on_step);
+  if (objects.empty() || !judge.has_variance()) return std::nullopt;
+  return best_of_order(judge, order).gains;
+}
+
 Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
+                       std::span<const std::optional<RandomMotion>> motions,
                        const RunMetricsOptions& scoring, const std::function<void()>& on_step) {
   const Judge judge(objects, sensors, scoring, on_step);
   Hindsight found;
   if (const double raw = judge.raw(); std::isfinite(raw)) found.raw = raw;
   if (!found.raw) return found;
   if (judge.has_variance()) find_best_gains(judge, found);
+  found.crlb = posterior_bound(objects, sensors, motions);
   constexpr int kIndices = 7;
   constexpr int kSections = 2;
-  const double least =
-      std::min(least_cost_of_number(1e-4, 1e2, kIndices, kSections,
-                                    [&](double at) { return judge.smoothed_error<1>(at); })
-                   .cost,
-               least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) {
-                 return judge.smoothed_error<2>(at);
-               }).cost);
+  const double least = std::min(
+      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<1>(at); })
+          .cost,
+      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<2>(at); })
+          .cost);
   if (std::isfinite(least)) found.smoother = least;
   return found;
 }
@@ -196,11 +207,13 @@ std::vector<ObjectId> objects_for_hindsight(const WorldScene& scene, std::size_t
 }
 
 void add_hindsight(RunReport& report, const std::vector<LabelledObject>& objects,
-                   std::span<const SensorConfig> sensors, const std::function<void()>& on_step) {
+                   const WorldScene& scene, const std::function<void()>& on_step) {
+  const std::vector<std::optional<RandomMotion>> motions = random_motions(scene, Runs::kOne);
   in_parallel(objects.size(), 2, [&](std::size_t i) {
-    const Hindsight found = in_hindsight({&objects[i]}, sensors, report.options, on_step);
+    const Hindsight found = in_hindsight({&objects[i]}, scene.sensors, motions, report.options, on_step);
     ObjectReport& object = report.objects[static_cast<std::size_t>(objects[i].id)];
     object.best_fixed_gains = found.best_fixed_gains;
+    object.crlb = found.crlb;
     object.smoother = found.smoother;
   });
 }

@@ -10,27 +10,6 @@
 #include "tracker/filters/smoother.hpp"
 
 namespace ghtrack {
-namespace {
-
-constexpr int kFirstDetections =
-    3;  // after which errors count: some filters have no acceleration yet
-
-/// Walks through the scans of an object and tells `visit` after each one that counts.
-/// @param advance  predicts and updates
-template <class Advance, class Visit>
-void walk(const LabelledObject& object, const Advance& advance, const Visit& visit) {
-  int detections = 0;
-  double before = object.scans.empty() ? 0.0 : object.scans.front().time;
-  for (const ObjectScan& scan : object.scans) {
-    advance(scan, scan.time - before);
-    before = scan.time;
-    if (scan.detection) ++detections;
-    if (detections >= kFirstDetections) visit(scan);
-  }
-}
-
-}  // namespace
-
 LabelledObjectRecorder::LabelledObjectRecorder(std::size_t objects,
                                                const std::vector<ObjectId>& wanted)
     : place_(objects) {
@@ -104,7 +83,7 @@ SquaredErrors measured_errors(Filter filter, const LabelledObject& object) {
       start(filter, scan.detection->position, scan.detection->covariance);
     }
   };
-  walk(object, advance, [&](const ObjectScan& scan) {
+  visit_judged(object, advance, [&](const ObjectScan& scan) {
     const Kinematics<2>& state = estimate(filter);
     sum.position.add((state.position - scan.truth.position).squaredNorm());
     sum.velocity.add((state.velocity - scan.truth.velocity).squaredNorm());
@@ -124,7 +103,7 @@ SquaredErrors expected_errors(GainFilter<2> filter, const LabelledObject& object
       filter.start(scan.truth.position, scan.detection->covariance);
     }
   };
-  walk(object, advance, [&](const ObjectScan& scan) {
+  visit_judged(object, advance, [&](const ObjectScan& scan) {
     sum.position.add((filter.estimate().position - scan.truth.position).squaredNorm() +
                      filter.noise_sigma().squaredNorm());
     sum.velocity.add((filter.estimate().velocity - scan.truth.velocity).squaredNorm() +
@@ -150,7 +129,7 @@ SquaredErrors expected_errors(const Filter& filter, const LabelledObject& object
       error.emplace(filter, scan.truth, *used, scan.time, 0);
     }
   };
-  walk(object, advance, [&](const ObjectScan& scan) {
+  visit_judged(object, advance, [&](const ObjectScan& scan) {
     if (!error->is_known()) return;
     const ExpectedError::Value value = error->value(scan.truth);
     sum.position.add(value.position_square());
@@ -171,7 +150,7 @@ SquaredErrors smoothed_errors(const SingleFilterConfig& config, const RunMetrics
   const std::vector<Smoothed> states = smoothed(config, scoring.sigma, scoring.period, track);
   SquaredErrors sum;
   std::size_t i = 0;
-  walk(
+  visit_judged(
       object, [&](const ObjectScan&, double) { ++i; },
       [&](const ObjectScan& scan) {
         const Kinematics<2>& state = states[i - 1].state;

@@ -32,6 +32,9 @@ struct LabelledObject {
   std::vector<ObjectScan> scans;
 };
 
+/// The objects of each of some runs.
+using LabelledRuns = std::vector<std::vector<LabelledObject>>;
+
 /// The first objects of each regime, at least one: as many as make about so many scans of an object
 /// in a run. What is searched for or averaged over again and again need not see the whole of a large
 /// swarm.
@@ -55,6 +58,23 @@ class LabelledObjectRecorder final : public RunObserver {
 /// Those of these objects that are detected at all in a run, by id.
 std::vector<LabelledObject> labelled_objects(const Trial& trial, int run, const RunTruth& truth,
                                         const std::vector<ObjectId>& wanted);
+
+/// Goes through the scans of an object and, after each one whose errors count, those from the third
+/// detection on (some filters have no acceleration before), visits it.
+/// @param advance  predicts and updates: takes the scan and the time since the one before [s]
+/// @param visit    takes the scan
+template <class Advance, class Visit>
+void visit_judged(const LabelledObject& object, const Advance& advance, const Visit& visit) {
+  constexpr int kFirstDetections = 3;
+  int detections = 0;
+  double before = object.scans.empty() ? 0.0 : object.scans.front().time;
+  for (const ObjectScan& scan : object.scans) {
+    advance(scan, scan.time - before);
+    before = scan.time;
+    if (scan.detection) ++detections;
+    if (detections >= kFirstDetections) visit(scan);
+  }
+}
 
 /// Mean squared errors over the scans from the third detection on.
 struct SquaredErrors {

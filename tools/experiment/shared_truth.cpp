@@ -36,7 +36,9 @@ SharedTruth::SharedTruth(const WorldScene& scene, std::function<void()> on_step)
     : scene_(truth_only(scene)),
       on_step_(std::move(on_step)),
       instants_(scan_instants(scene)),
-      objects_(spell_out(scene.targets).size()) {}
+      objects_(spell_out(scene.targets).size()) {
+  keep_within(0.0);
+}
 
 void SharedTruth::add(const WorldScene& scene) {
   const std::vector<double> own = scan_instants(scene);
@@ -46,8 +48,13 @@ void SharedTruth::add(const WorldScene& scene) {
   instants_ = std::move(all);
 }
 
-bool SharedTruth::stays(int run) const {
-  return run < kKeptRuns && recorded_bytes(objects_, instants_.size()) * (run + 1) <= room_;
+void SharedTruth::keep_within(double bytes, int first_run) {
+  first_run_ = first_run;
+  const double runs = bytes / std::max(1.0, recorded_bytes(objects_, instants_.size()));
+  const std::size_t places =
+      truth_is_fixed(scene_) ? 1 : static_cast<std::size_t>(std::min<double>(runs, kMostKept));
+  kept_.clear();
+  while (kept_.size() < places) kept_.push_back(std::make_unique<Kept>());
 }
 
 RunTruth SharedTruth::of_run(int run, bool is_reused) const {
@@ -57,9 +64,10 @@ RunTruth SharedTruth::of_run(int run, bool is_reused) const {
     SimulatedTruth simulated(make_world);
     return std::make_shared<const TruthRecording>(record(simulated, instants_, on_step_));
   };
-  const bool is_fixed = truth_is_fixed(scene_);
-  if (is_fixed || stays(run)) {
-    Kept& kept = kept_[is_fixed ? 0 : static_cast<std::size_t>(run)];
+  const std::size_t place =
+      truth_is_fixed(scene_) ? 0 : static_cast<std::size_t>(std::max(0, run - first_run_));
+  if (place < kept_.size() && (run >= first_run_ || truth_is_fixed(scene_))) {
+    Kept& kept = *kept_[place];
     std::call_once(kept.made, [&] { kept.recording = recorded(); });
     return RunTruth(kept.recording);
   }
@@ -68,7 +76,7 @@ RunTruth SharedTruth::of_run(int run, bool is_reused) const {
 }
 
 std::vector<CellGroup> groups_by_truth(const Campaign& campaign,
-                                       const std::function<void()>& on_step) {
+                                       const std::function<void()>& on_step, int first_run) {
   std::vector<CellGroup> groups;
   std::map<std::string, std::size_t> group_of;  // by what the truth depends on
   for (std::size_t i = 0; i < campaign.cells.size(); ++i) {
@@ -82,7 +90,9 @@ std::vector<CellGroup> groups_by_truth(const Campaign& campaign,
     }
     groups[found->second].cells.push_back(i);
   }
-  for (CellGroup& group : groups) group.truth->set_room(kRoom / static_cast<double>(groups.size()));
+  for (CellGroup& group : groups) {
+    group.truth->keep_within(kRoom / static_cast<double>(groups.size()), first_run);
+  }
   return groups;
 }
 

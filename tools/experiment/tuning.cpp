@@ -25,9 +25,6 @@ namespace {
 
 constexpr std::size_t kMostScans = 200'000;  // that one evaluation goes through, of all regimes
 
-/// One regime's objects in several runs.
-using Runs = std::vector<std::vector<LabelledObject>>;
-
 /// So many digits are printed, and so many are judged.
 double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
@@ -96,10 +93,10 @@ struct Candidate {
 /// Tunes and judges one regime.
 class RegimeTuner {
  public:
-  RegimeTuner(const Trial& trial, const std::string& regime, Runs training, Runs judging,
+  RegimeTuner(const Trial& trial, const std::string& regime, LabelledRuns training, LabelledRuns judging,
               const TuningOptions& options)
       : trial_(trial),
-        sensor_(best_sensor(traits_of(trial.scene().sensors))),
+        sensor_(best_sensor(trial.scene().sensors)),
         regime_(regime),
         training_(std::move(training)),
         judging_(std::move(judging)),
@@ -131,13 +128,6 @@ class RegimeTuner {
   }
 
  private:
-  /// The sensor that filters are designed for, see TrackerDesign.
-  static SensorTraits best_sensor(const std::vector<SensorTraits>& sensors) {
-    return *std::min_element(sensors.begin(), sensors.end(), [](const auto& a, const auto& b) {
-      return a.sigma * a.sigma * a.period < b.sigma * b.sigma * b.period;
-    });
-  }
-
   /// τ of an acceleration whose correlation falls as e^(−t/τ), from that of neighbouring scans.
   double correlation_time(const SubjectTheory& theory) const {
     const double rho = theory.square_acceleration > 0.0
@@ -159,7 +149,7 @@ class RegimeTuner {
     return measured_errors(design.filter_for(regime_, object.scans.front().sensor), object);
   }
 
-  double pooled_rmse(const TrackerDesign& design, const Runs& runs) const {
+  double pooled_rmse(const TrackerDesign& design, const LabelledRuns& runs) const {
     SquaredErrors sum;
     for (const std::vector<LabelledObject>& run : runs) {
       for (const LabelledObject& object : run) sum += errors(design, object);
@@ -168,7 +158,7 @@ class RegimeTuner {
   }
 
   /// RMSE of each run; NaN where nothing was seen.
-  std::vector<double> rmse_of_runs(const TrackerDesign& design, const Runs& runs) const {
+  std::vector<double> rmse_of_runs(const TrackerDesign& design, const LabelledRuns& runs) const {
     std::vector<double> all;
     for (const std::vector<LabelledObject>& run : runs) {
       SquaredErrors sum;
@@ -294,14 +284,101 @@ class RegimeTuner {
   const Trial& trial_;
   SensorTraits sensor_;
   std::string regime_;
-  Runs training_;
-  Runs judging_;
+  LabelledRuns training_;
+  LabelledRuns judging_;
   const TuningOptions& options_;
 };
 
+/// Tunes filters for all objects of a scene together.
+class AllTuner {
+ public:
+  AllTuner(const Trial& trial, const LabelledRuns& runs) : trial_(trial), runs_(runs) {
+    const SensorTraits best = best_sensor(trial.scene().sensors);
+    unit_ = intensity_of_index(ProcessModel::kPiecewiseConstant, 1.0, best.sigma, best.period);
+  }
+
+  FilterConfig gains(int order) const {
+    ObjectsOfRuns objects;
+    for (const std::vector<LabelledObject>& run : runs_) {
+      for (const LabelledObject& object : run) objects.push_back(&object);
+    }
+    const std::optional<Gains> best = best_gains(objects, trial_.scene().sensors, trial_.scoring(),
+                                                 order, [this] { trial_.step(); });
+    if (best) return config_of(*best);
+    return config_of(
+        least_cost(stable_gains(order), [&](const Gains& gains) { return cost(config_of(gains)); })
+            .gains);
+  }
+
+  struct Kalman {
+    FilterConfig config;
+    double process_noise = 0.0;
+    double cost = 0.0;
+    int order = 1;
+  };
+  Kalman kalman() const {
+    const Kalman cv = kalman_of(kalman_config<1>, 1);
+    const Kalman ca = kalman_of(kalman_config<2>, 2);
+    return cv.cost < ca.cost ? cv : ca;
+  }
+
+  /// Two Kalman filters like the best one, a calmer and a livelier one.
+  FilterConfig interacting(const Kalman& best) const {
+    FilterConfig chosen = ImmConfig{};
+    double least = cost(chosen);
+    for (const double ratio : {2.0, 5.0, 20.0}) {
+      for (const double switching : {0.02, 0.1}) {
+        ImmConfig config;
+        config.switching = switching;
+        for (const auto& [name, noise] :
+             {std::pair{"calm", best.process_noise / ratio}, {"lively", best.process_noise * ratio}}) {
+          config.filters[name] = best.order == 1 ? single<1>(noise) : single<2>(noise);
+        }
+        const double found = cost(config);
+        if (!(found < least)) continue;
+        least = found;
+        chosen = config;
+      }
+    }
+    return chosen;
+  }
+
+ private:
+  template <int Order>
+  static SingleFilterConfig single(double process_noise) {
+    return std::get<KalmanConfig<Order>>(kalman_config<Order>(process_noise));
+  }
+
+  Kalman kalman_of(FilterConfig (*config)(double), int order) const {
+    const FoundNumber noise = least_cost_of_number(1e-5 * unit_, 1e3 * unit_, 12, 8,
+                                                   [&](double at) { return cost(config(at)); });
+    return {config(noise.at), noise.at, noise.cost, order};
+  }
+
+  double cost(const FilterConfig& filter) const {
+    trial_.step();
+    TrackerConfig config = trial_.scene().tracker;
+    config.association = Association::kNearestGlobal;  // filters do not depend on it
+    config.filters = {{std::string(TrackerConfig::kDefaultFilter), filter}};
+    const TrackerDesign design(std::move(config), traits_of(trial_.scene().sensors));
+    SquaredErrors sum;
+    for (const std::vector<LabelledObject>& run : runs_) {
+      for (const LabelledObject& object : run) {
+        sum += measured_errors(design.filter_for("", object.scans.front().sensor), object);
+      }
+    }
+    const double rmse = sum.position.root().value_or(std::numeric_limits<double>::infinity());
+    return std::isfinite(rmse) ? rmse : std::numeric_limits<double>::infinity();
+  }
+
+  const Trial& trial_;
+  const LabelledRuns& runs_;
+  double unit_;  // process noise of tracking index 1
+};
+
 /// The objects of one regime in all runs.
-Runs runs_of(const Runs& all, const Subject& regime) {
-  Runs chosen;
+LabelledRuns runs_of(const LabelledRuns& all, const Subject& regime) {
+  LabelledRuns chosen;
   for (const std::vector<LabelledObject>& run : all) {
     std::copy_if(run.begin(), run.end(), std::back_inserter(chosen.emplace_back()),
                  [&](const LabelledObject& object) {
@@ -312,8 +389,8 @@ Runs runs_of(const Runs& all, const Subject& regime) {
   return chosen;
 }
 
-Runs labelled_runs(const Trial& trial, int first, const TuningOptions& options) {
-  Runs runs(static_cast<std::size_t>(options.runs));
+LabelledRuns labelled_runs(const Trial& trial, int first, const TuningOptions& options) {
+  LabelledRuns runs(static_cast<std::size_t>(options.runs));
   const std::vector<ObjectId> objects = some_objects(trial, kMostScans / runs.size());
   in_parallel(runs.size(), options.jobs, [&](std::size_t i) {
     const int run = first + static_cast<int>(i);
@@ -324,6 +401,33 @@ Runs labelled_runs(const Trial& trial, int first, const TuningOptions& options) 
 
 }  // namespace
 
+std::map<std::string, FilterConfig> tuned_filters(const Trial& trial, const LabelledRuns& runs,
+                                                  std::span<const TunedKind> kinds) {
+  const AllTuner tuner(trial, runs);
+  const bool needs_kalman = std::any_of(kinds.begin(), kinds.end(), [](TunedKind kind) {
+    return kind == TunedKind::kKalman || kind == TunedKind::kImm;
+  });
+  const AllTuner::Kalman kalman = needs_kalman ? tuner.kalman() : AllTuner::Kalman{};
+  std::map<std::string, FilterConfig> filters;
+  for (const TunedKind kind : kinds) {
+    switch (kind) {
+      case TunedKind::kGh:
+        filters["tuned g-h"] = tuner.gains(1);
+        break;
+      case TunedKind::kGhk:
+        filters["tuned g-h-k"] = tuner.gains(2);
+        break;
+      case TunedKind::kKalman:
+        filters["tuned Kalman"] = kalman.config;
+        break;
+      case TunedKind::kImm:
+        filters["tuned IMM"] = tuner.interacting(kalman);
+        break;
+    }
+  }
+  return filters;
+}
+
 Tuning tune(const WorldScene& scene, const TuningOptions& options,
             const std::function<void()>& on_step) {
   for (const int order : options.orders) {
@@ -332,10 +436,9 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
     }
   }
   const Trial trial(scene, on_step);
-  const Runs training = labelled_runs(trial, kFirstTuningRun, options);
-  const Runs judging = labelled_runs(trial, kFirstJudgingRun, options);
-  const std::vector<SubjectTheory> theory =
-      theory_of(trial, trial.truth(), kFirstJudgingRun, options.runs, options.jobs);
+  const LabelledRuns training = labelled_runs(trial, kFirstTuningRun, options);
+  const LabelledRuns judging = labelled_runs(trial, kFirstJudgingRun, options);
+  const std::vector<SubjectTheory> theory = theory_of(trial, judging, options.jobs);
 
   std::vector<std::size_t> regimes;  // among the subjects
   for (std::size_t i = 0; i < trial.subjects().size(); ++i) {

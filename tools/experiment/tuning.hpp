@@ -1,13 +1,16 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "scenes/schema/scene.hpp"
 #include "tools/experiment/comparison.hpp"
+#include "tools/experiment/labelled_objects.hpp"
 #include "tracker/filters/filter_config.hpp"
 
 // Gains for each regime of a scene, found on some seeds and judged on others.
@@ -65,6 +68,13 @@ struct Tuning {
 Tuning tune(
     const WorldScene& scene, const TuningOptions& options,
     const std::function<void()>& on_step = [] {});
+
+/// Filters for all objects of a scene, each with what is best on some runs: g-h and g-h-k gains by
+/// their expected error, Kalman filters of both kinds by their process noise, interacting ones around
+/// the best of these.
+/// @return by name: "tuned g-h", "tuned g-h-k", "tuned Kalman", "tuned IMM"
+std::map<std::string, FilterConfig> tuned_filters(const Trial& trial, const LabelledRuns& runs,
+                                                  std::span<const TunedKind> kinds);
 
 /// The recommended filters as a part of a scene, to be pasted under `tracker`.
 std::string scene_fragment(const Tuning& tuning);

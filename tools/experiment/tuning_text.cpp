@@ -60,7 +60,7 @@ nlohmann::ordered_json to_json(const Tuning& tuning) {
                        {"tracking_index", number(regime.tracking_index)},
                        {"raw", number(regime.hindsight.raw)},
                        {"best_fixed_gains", number(regime.hindsight.best_fixed_gains)},
-                       {"crlb", nullptr},
+                       {"crlb", number(regime.hindsight.crlb)},
                        {"smoother", number(regime.hindsight.smoother)},
                        {"g", regime.best.g},
                        {"h", regime.best.order >= 1 ? Json(regime.best.h) : Json(nullptr)},
@@ -103,6 +103,7 @@ std::string to_table(const Tuning& tuning, std::size_t width) {
     };
     add_reference("  raw detections", "", hindsight.raw);
     add_reference("  best fixed gains", to_text(hindsight.best), hindsight.best_fixed_gains);
+    add_reference("  posterior CRLB", "", hindsight.crlb);
     add_reference("  smoother", "", hindsight.smoother);
     text += text_table({{"  gains from", 20, false},
                         {"filter", 14, false},
@@ -114,7 +115,9 @@ std::string to_table(const Tuning& tuning, std::size_t width) {
   }
   return text +
          "\n* recommended: the least error in judging, or the scene's own if none is better for\n"
-         "  sure; to recommended: difference to that; best fixed gains: chosen after judging, by their expected error; smoother: knows later detections, too.\n"
+         "  sure; to recommended: difference to that; best fixed gains: chosen after judging, by their\n"
+         "  expected error; posterior CRLB: below which no filter can be, where the motion is random;\n"
+         "  smoother: knows later detections, too.\n"
          "  ± half of a 95 % interval\n";
 }
 

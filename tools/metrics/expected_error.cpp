@@ -34,12 +34,14 @@ void extrapolate(Matrix6& p, double dt) {
   p.middleCols<2>(2) += dt * p.rightCols<2>();
 }
 
-/// (I − K H) P (I − K H)ᵀ + K R Kᵀ.
+/// (I − K H) P (I − K H)ᵀ + K R Kᵀ. Rows and columns are taken on their own: with one for the other,
+/// what rounding has made unsymmetric in P would grow by I + K H.
 void correct(Matrix6& p, const Gain& gain, const Eigen::Matrix2d& r) {
-  const Gain cross = p.leftCols<2>();
-  const Eigen::Matrix2d s = cross.topRows<2>() + r;
-  p -= gain * cross.transpose();
-  p -= cross * gain.transpose();
+  const Gain columns = p.leftCols<2>();
+  const Eigen::Matrix<double, 2, 6> rows = p.topRows<2>();
+  const Eigen::Matrix2d s = columns.topRows<2>() + r;
+  p -= gain * rows;
+  p -= columns * gain.transpose();
   p += (gain * s) * gain.transpose();
 }
 
@@ -76,6 +78,8 @@ std::optional<Detection> noisy(const SensedDetection& used, const Vec2& place, S
       },
       used.sensor.model);
 }
+
+bool has_heavy_tails(const SensedDetection& used) { return used.errors.size() > 1; }
 
 /// Whether gains depend on times and accuracies alone, but for a limit.
 bool has_own_gains(const MotionFilter& filter) {
@@ -172,17 +176,15 @@ void ExpectedError::update(const TruthState& truth, const SensedDetection& used)
   if (updates_ == kProbed) {
     const double far = step / (kSmall * kSmall * kSmall);
     is_linear_ = answer_to(beside({far, 0.0}))[0] > 0.5 * far * gain(0, 0);
-    if (is_linear_) shadows_.clear();
+    if (is_linear_ && !has_heavy_tails(used)) shadows_.clear();
   }
 
   const Eigen::Matrix2d position = covariance_.topLeftCorner<2, 2>();
   const Eigen::Matrix2d noise = mean_factor(used.errors) * told;
   const Eigen::Matrix2d s = position + noise;
   const Vec2 residual = mean->position - predicted;
-  double length = 0.0;
-  for (const ErrorPart& part : used.errors) {
-    length += part.probability * expected_length(residual, position + part.variance_factor * told);
-  }
+  // Else shadows tell: what a filter has let through of errors with heavy tails is not normal.
+  const double length = has_heavy_tails(used) ? 0.0 : expected_length(residual, s);
   innovation_ = {.mean = residual,
                  .covariance = s,
                  .length = length,
@@ -211,7 +213,11 @@ void ExpectedError::update_shadows(const TruthState& truth, const SensedDetectio
     ghtrack::update(shadows_[i], *detection);
   }
   seen.covariance = squares - seen.mean * seen.mean.transpose();
-  if (!is_linear_) innovation_ = seen;
+  if (!is_linear_) {
+    innovation_ = seen;
+  } else if (has_heavy_tails(used)) {
+    innovation_->length = seen.length;
+  }
 }
 
 ExpectedError::Value ExpectedError::value(const TruthState& truth) const {

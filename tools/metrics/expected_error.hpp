@@ -30,7 +30,8 @@ struct SensedDetection {
 ///
 /// Filters whose gains do depend on it (several models, Huber limits, motions that are no
 /// polynomials) are told by sixteen shadows instead, which are shown detections with noise of their
-/// own: the mean of their errors.
+/// own: the mean of their errors. They tell the mean length of the residual, too, where errors have
+/// heavy tails.
 class ExpectedError {
  public:
   using Vector6 = Eigen::Matrix<double, 6, 1>;  // position, velocity, acceleration on x and y

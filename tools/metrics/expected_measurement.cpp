@@ -28,17 +28,25 @@ const Model& without_noise(const Model& model) {
   return model;
 }
 
-/// ν / χ²_ν at the middles of intervals of equal probability, scaled to their mean ν / (ν − 2).
+/// Student's t as normal errors of variance ν / χ²_ν, in parts of the distribution of χ²: closer where
+/// it is small and the errors wide. The variance of a part is the mean over it, exactly:
+/// E[ν/χ²_ν; χ²_ν < x] = ν / (ν − 2) P(χ²_{ν−2} < x).
 std::vector<ErrorPart> student_parts(double dof) {
   constexpr int kParts = 16;
+  std::vector<double> shares = {1e-5, 1e-4, 1e-3, 0.01, 0.03};  // of the widest errors
+  for (int i = 1; i < kParts; ++i) shares.push_back(static_cast<double>(i) / kParts);
   std::vector<ErrorPart> parts;
-  double sum = 0.0;
-  for (int i = 0; i < kParts; ++i) {
-    const double share = (i + 0.5) / kParts;
-    parts.push_back({1.0 / kParts, dof / chi_square_quantile(share, dof)});
-    sum += parts.back().variance_factor / kParts;
+  double share_before = 0.0, weight_before = 0.0;
+  const auto add_up_to = [&](double share, double weight) {
+    const double probability = share - share_before;
+    parts.push_back({probability, dof / (dof - 2.0) * (weight - weight_before) / probability});
+    share_before = share;
+    weight_before = weight;
+  };
+  for (const double share : shares) {
+    add_up_to(share, chi_square_probability(chi_square_quantile(share, dof), dof - 2.0));
   }
-  for (ErrorPart& part : parts) part.variance_factor *= dof / (dof - 2.0) / sum;
+  add_up_to(1.0, 1.0);
   return parts;
 }
 

@@ -14,7 +14,7 @@ struct ErrorPart {
 };
 
 /// Errors of a sensor as a mixture of normal ones: outliers are wider, and Student's t is a mixture
-/// over all widths, of which sixteen stand for the rest. Nothing if they have no variance, as with
+/// over all widths, of which a few stand for the rest. Nothing if they have no variance, as with
 /// two degrees of freedom or fewer.
 std::optional<std::vector<ErrorPart>> error_parts(const SensorConfig& sensor);
 

@@ -90,6 +90,10 @@ double normal_quantile(double probability) {
   return 0.5 * (low + high);
 }
 
+double chi_square_probability(double x, double degrees) {
+  return incomplete_gamma(0.5 * degrees, 0.5 * x);
+}
+
 double chi_square_quantile(double probability, double degrees) {
   const double a = degrees / 2.0;
   const double spread = 2.0 / (9.0 * degrees);

@@ -8,6 +8,9 @@ namespace ghtrack {
 /// error function.
 double normal_quantile(double probability);
 
+/// The probability that a χ² variable with `degrees` degrees of freedom, above 0, stays below x.
+double chi_square_probability(double x, double degrees);
+
 /// The value that a χ² variable with `degrees` degrees of freedom stays below with `probability`.
 /// Newton's method on the regularised incomplete gamma function P(degrees / 2, x / 2), by its
 /// series and continued fraction (Abramowitz & Stegun 6.5.29, 6.5.31), from the Wilson–Hilferty

@@ -56,6 +56,7 @@ struct ObjectReport {
   std::optional<Interval> rmse_position_ci95;  // 95 % confidence
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
   std::optional<double> best_fixed_gains;      // see Hindsight; for the caller to fill in [m]
+  std::optional<double> crlb;                  // the same
   std::optional<double> smoother;              // the same
   std::optional<double> rmse_velocity;         // [m/s]
   std::optional<double> predicted_velocity;    // its prediction [m/s]

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -39,7 +40,7 @@ Json object_json(const ObjectReport& object) {
   json["predicted"] = number(object.predicted_rmse);
   json["raw"] = number(object.measurement_rmse);
   json["best_fixed_gains"] = number(object.best_fixed_gains);
-  json["crlb"] = nullptr;
+  json["crlb"] = number(object.crlb);
   json["smoother"] = number(object.smoother);
   json["rmse_velocity"] = number(object.rmse_velocity);
   json["predicted_velocity"] = number(object.predicted_velocity);
@@ -154,23 +155,36 @@ void write_json(const RunReport& report, const std::function<void(std::string_vi
 }
 
 std::string to_table(const RunReport& report, std::size_t width) {
-  const std::vector<TextColumn> columns = {
-      {"object", 17},        {"regime", 8},          {"filter and gains", 26},
-      {"RMSE [m]", 8, true}, {"predicted", 9, true}, {"best fixed", 10, true},
-      {"raw", 8, true},      {"MAI [m]", 8, true},   {"used/missed", 12, true}};
+  const bool has_bound = std::any_of(report.objects.begin(), report.objects.end(),
+                                     [](const ObjectReport& object) { return object.crlb.has_value(); });
+  std::vector<TextColumn> columns = {{"object", 17},        {"regime", 8},
+                                     {"filter and gains", 26}, {"RMSE [m]", 8, true},
+                                     {"predicted", 9, true}, {"raw", 8, true},
+                                     {"best fixed", 10, true}};
+  if (has_bound) columns.push_back({"CRLB", 8, true});
+  for (const char* heading : {"smoother", "MAI [m]"}) columns.push_back({heading, 8, true});
+  columns.push_back({"used/missed", 12, true});
   std::vector<std::vector<std::string>> rows;
   for (const ObjectReport& object : report.objects) {
-    rows.push_back({object.name, object.regime,
-                    object.gains.empty() ? object.filter : object.filter + " " + object.gains,
-                    cell(object.rmse_position), cell(object.predicted_rmse),
-                    cell(object.best_fixed_gains), cell(object.measurement_rmse), cell(object.mai),
-                    fmt::format("{}/{}", object.detections_used, object.detections_missed)});
+    std::vector<std::string>& row = rows.emplace_back();
+    row = {object.name, object.regime,
+           object.gains.empty() ? object.filter : object.filter + " " + object.gains};
+    for (const auto& rmse : {object.rmse_position, object.predicted_rmse, object.measurement_rmse,
+                             object.best_fixed_gains}) {
+      row.push_back(cell(rmse));
+    }
+    if (has_bound) row.push_back(cell(object.crlb));
+    for (const auto& length : {object.smoother, object.mai}) row.push_back(cell(length));
+    row.push_back(fmt::format("{}/{}", object.detections_used, object.detections_missed));
   }
   const TotalReport& total = report.total;
   const ClearMotResult& clear = total.mot.clear;
   const GospaOptions gospa = report.options.gospa();
   return text_table(columns, rows, {.width = width}) +
          "predicted: by theory; best fixed: expected of the best fixed gains in hindsight;\n"
+         "smoother: knows later detections, too; raw: of the detections; MAI: mean absolute\n"
+         "innovation; " +
+         std::string(has_bound ? "CRLB: no filter is expected to do better;\n" : "") +
          "used/missed: scans with and without a detection used\n" +
          fmt::format(
              "\nGOSPA {} m (c {:.4g} m, p {:.4g}, alpha {:.4g}): {:.3g} missed and {:.3g} false "

@@ -125,7 +125,7 @@ Laboratory::Laboratory(std::string_view scene, std::span<const double> truth) {
   scene_.duration = recorded.duration;
   scene_.seed = recorded.seed;
   truth_ = std::make_shared<const TruthRecording>(TruthRecording{
-      .objects = from_recorded(recorded.objects), .snapshots = from_numbers(truth), .displacements = {}});
+      .objects = from_recorded(recorded.objects), .snapshots = from_numbers(truth), .displacements = {}, .events = {}});
 }
 
 std::size_t Laboratory::word(std::string_view text) {

@@ -7,7 +7,13 @@
 
 namespace ghtrack::plot {
 
+double Axis::share(double value) const {
+  return ((is_logarithmic ? std::log10(value) : value) - low) / span();
+}
+
 std::string Axis::label(double tick) const {
+  if (!names.empty()) return names.at(static_cast<std::size_t>(std::lround(tick)));
+  if (is_logarithmic) return fmt::format("{:.3g}", std::pow(10.0, tick));
   const double largest = std::max(std::abs(low), std::abs(high));
   if (largest >= 1e6 || (largest > 0.0 && largest < 1e-3)) {
     return std::abs(tick) < 1e-9 * largest ? "0" : fmt::format("{:.4g}", tick);
@@ -38,6 +44,35 @@ Axis axis_over(double low, double high, double ticks, bool tight) {
   for (long i = first; i <= last && i - first < 100; ++i) {
     axis.ticks.push_back(static_cast<double>(i) * axis.step);
   }
+  return axis;
+}
+
+Axis logarithmic_axis_over(double low, double high) {
+  if (!(low > 0.0 && low <= high)) return logarithmic_axis_over(1.0, 10.0);
+  Axis axis;
+  axis.is_logarithmic = true;
+  const double margin = std::max(0.02, 0.05 * std::log10(high / low));
+  axis.low = std::log10(low) - margin;
+  axis.high = std::log10(high) + margin;
+  axis.step = 1.0;
+  const bool is_short = axis.span() < 3.0;
+  for (double decade = std::floor(axis.low); decade <= axis.high; decade += 1.0) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double tick = decade + std::log10(digit);
+      const bool is_shown = digit == 1.0 || is_short;
+      if (is_shown && tick >= axis.low && tick <= axis.high) axis.ticks.push_back(tick);
+    }
+  }
+  return axis;
+}
+
+Axis axis_of(const std::vector<std::string>& names) {
+  Axis axis;
+  axis.names = names;
+  axis.low = -0.6;
+  axis.high = static_cast<double>(names.size()) - 0.4;
+  axis.step = 1.0;
+  for (std::size_t i = 0; i < names.size(); ++i) axis.ticks.push_back(static_cast<double>(i));
   return axis;
 }
 

@@ -7,7 +7,7 @@
 namespace ghtrack::plot {
 
 /// What a curve looks like.
-enum class Mark { kLine, kDashes, kDots };
+enum class Mark { kLine, kDashes, kDots, kRings };
 
 /// A curve; NaN in x or y interrupts it.
 struct Curve {
@@ -38,6 +38,8 @@ struct Panel {
   std::vector<Level> levels = {};
   bool wide = false;                 // as wide as the figure
   bool equal_scales = false;         // a metre is as long in x as in y
+  bool x_logarithmic = false, y_logarithmic = false;  // values at or below zero are left out
+  std::vector<std::string> y_names = {};              // of y = 0, 1, …, instead of numbers
   std::optional<double> y_from = {}, y_to = {};  // instead of what the curves need
 };
 

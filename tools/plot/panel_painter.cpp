@@ -18,9 +18,10 @@ constexpr std::size_t kFewDots = 300;  // that are drawn larger
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
+  bool only_positive = false;
 
   void add(double value) {
-    if (!std::isfinite(value)) return;
+    if (!std::isfinite(value) || (only_positive && value <= 0.0)) return;
     low = std::min(low, value);
     high = std::max(high, value);
   }
@@ -34,6 +35,8 @@ class Frame {
  public:
   Frame(const Panel& panel, const Rectangle& plot, double font_size) : plot_(plot) {
     Range xs, ys;
+    xs.only_positive = panel.x_logarithmic;
+    ys.only_positive = panel.y_logarithmic;
     for (const Curve& curve : panel.curves) {
       xs.add(curve.x);
       ys.add(curve.y);
@@ -48,14 +51,19 @@ class Frame {
     if (panel.y_to) ys.high = *panel.y_to;
     const double x_ticks = plot.width / (font_size * 6.5);
     const double y_ticks = plot.height / (font_size * 3.5);
-    x = axis_over(xs.low, xs.high, x_ticks, !panel.equal_scales);
-    y = axis_over(ys.low, ys.high, y_ticks, panel.y_from && panel.y_to);
+    x = panel.x_logarithmic ? logarithmic_axis_over(xs.low, xs.high)
+                            : axis_over(xs.low, xs.high, x_ticks, !panel.equal_scales);
+    y = !panel.y_names.empty()    ? axis_of(panel.y_names)
+        : panel.y_logarithmic ? logarithmic_axis_over(ys.low, ys.high)
+                              : axis_over(ys.low, ys.high, y_ticks, panel.y_from && panel.y_to);
     if (panel.equal_scales) equalise(x_ticks, y_ticks);
   }
 
-  double to_x(double value) const { return plot_.x + (value - x.low) / x.span() * plot_.width; }
-  double to_y(double value) const {
-    return plot_.y + plot_.height - (value - y.low) / y.span() * plot_.height;
+  double to_x(double value) const { return plot_.x + x.share(value) * plot_.width; }
+  double to_y(double value) const { return plot_.y + (1.0 - y.share(value)) * plot_.height; }
+  double tick_x(double tick) const { return plot_.x + (tick - x.low) / x.span() * plot_.width; }
+  double tick_y(double tick) const {
+    return plot_.y + plot_.height - (tick - y.low) / y.span() * plot_.height;
   }
   const Rectangle& plot() const { return plot_; }
 
@@ -90,6 +98,10 @@ void trace(cairo_t* cairo, const Frame& frame, const std::vector<double>& x,
       continue;
     }
     const double px = frame.to_x(x[i]), py = frame.to_y(y[i]);
+    if (!std::isfinite(px) || !std::isfinite(py)) {
+      pen_down = false;
+      continue;
+    }
     if (!pen_down) {
       cairo_move_to(cairo, px, py);
     } else if (std::hypot(px - last_x, py - last_y) < kHair && i + 1 < x.size()) {
@@ -109,20 +121,26 @@ void draw_dots(Canvas& canvas, const Frame& frame, const Curve& curve, double ra
   for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
     if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
     const double px = frame.to_x(curve.x[i]), py = frame.to_y(curve.y[i]);
+    if (!std::isfinite(px) || !std::isfinite(py)) continue;
     if (std::hypot(px - last_x, py - last_y) < 0.3) continue;
     cairo_new_sub_path(cairo);
     cairo_arc(cairo, px, py, radius, 0.0, 2.0 * std::numbers::pi);
     last_x = px;
     last_y = py;
   }
-  cairo_fill(cairo);
+  if (curve.mark == Mark::kDots) {
+    cairo_fill(cairo);
+  } else {
+    cairo_set_line_width(cairo, 0.45 * radius);
+    cairo_stroke(cairo);
+  }
 }
 
 void draw_curve(Canvas& canvas, const Frame& frame, const Curve& curve, const Palette& palette,
                 double font_size) {
   cairo_t* const cairo = canvas.cairo();
   canvas.set(palette.of(curve.colour).with_alpha(curve.colour < -1 ? 0.7 : 1.0));
-  if (curve.mark == Mark::kDots) {
+  if (curve.mark == Mark::kDots || curve.mark == Mark::kRings) {
     const bool few = curve.x.size() <= kFewDots;
     return draw_dots(canvas, frame, curve, font_size * (few ? 0.2 : 0.11));
   }
@@ -164,13 +182,13 @@ void draw_axes(Canvas& canvas, const Panel& panel, const Frame& frame, const Rec
   const Rectangle& plot = frame.plot();
   const double small = font_size * 0.85;
   for (const double tick : frame.x.ticks) {
-    const double at = frame.to_x(tick);
+    const double at = frame.tick_x(tick);
     canvas.line(at, plot.y, at, plot.y + plot.height, 0.6, palette.grid);
     canvas.text(at, plot.y + plot.height + small * 1.35, frame.x.label(tick), small, palette.ink,
                 Align::kCentre);
   }
   for (const double tick : frame.y.ticks) {
-    const double at = frame.to_y(tick);
+    const double at = frame.tick_y(tick);
     canvas.line(plot.x, at, plot.x + plot.width, at, 0.6, palette.grid);
     canvas.text(plot.x - small * 0.5, at + small * 0.36, frame.y.label(tick), small, palette.ink,
                 Align::kRight);
@@ -227,11 +245,17 @@ void draw_legend(Canvas& canvas, const Panel& panel, const Rectangle& plot, doub
     const double middle = y - small * 0.32;
     if (entry.is_band) {
       canvas.fill(x, middle - small * 0.35, swatch * 0.8, small * 0.7, colour.with_alpha(0.3));
-    } else if (entry.mark == Mark::kDots) {
+    } else if (entry.mark == Mark::kDots || entry.mark == Mark::kRings) {
       canvas.set(colour);
+      cairo_new_sub_path(canvas.cairo());
       cairo_arc(canvas.cairo(), x + swatch * 0.4, middle, small * 0.22, 0.0,
                 2.0 * std::numbers::pi);
-      cairo_fill(canvas.cairo());
+      if (entry.mark == Mark::kDots) {
+        cairo_fill(canvas.cairo());
+      } else {
+        cairo_set_line_width(canvas.cairo(), small * 0.1);
+        cairo_stroke(canvas.cairo());
+      }
     } else {
       const double dashes[] = {small * 0.4, small * 0.25};
       cairo_set_dash(canvas.cairo(), dashes, entry.mark == Mark::kDashes ? 2 : 0, 0.0);

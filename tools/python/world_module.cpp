@@ -192,7 +192,7 @@ py::object run_scene(const std::string& text, const std::string& name,
       const auto counts = run(*scene, truth, contenders, {&*columns, &metrics, &labelled});
       report = metrics.report();
       report.counts = counts.front();
-      add_hindsight(report, std::move(labelled).objects(), scene->sensors, [] {});
+      add_hindsight(report, std::move(labelled).objects(), *scene, [] {});
     }
   }
   if (!columns) return py::none();

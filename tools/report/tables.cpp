@@ -67,8 +67,18 @@ Json value_cells(const std::vector<std::size_t>& filters, const RowsByFilter& ro
   return values;
 }
 
-std::optional<double> bound_of(const RowsByFilter& rows) {
-  return rows.begin()->second->hindsight.best_fixed_gains;
+/// What the errors of a row may be held against.
+Json reference_cells(const Hindsight& hindsight) {
+  Json cells = Json::array();
+  for (const Reference& reference : kReferences) {
+    const std::optional<double>& rmse = hindsight.*reference.value;
+    cells.push_back({{"text", number(rmse)}, {"sort", sort_key(rmse)}});
+  }
+  return cells;
+}
+
+Json reference_cells(const RowsByFilter& rows) {
+  return reference_cells(rows.begin()->second->hindsight);
 }
 
 Json named(const Comparison& comparison, const std::vector<std::size_t>& filters) {
@@ -100,6 +110,12 @@ std::string mean_text(const ComparisonRow& row, std::int64_t all) {
 
 std::string cell_id(std::size_t cell) { return fmt::format("scene-{}", cell + 1); }
 
+nlohmann::json reference_names() {
+  Json names = Json::array();
+  for (const Reference& reference : kReferences) names.push_back({{"title", reference.title}});
+  return names;
+}
+
 nlohmann::json filters_of(const Comparison& comparison, std::size_t cell) {
   return named(comparison, filters_in(comparison, cell));
 }
@@ -123,8 +139,7 @@ nlohmann::json summary_tables(const Comparison& comparison) {
                       {"href", "#" + cell_id(i)},
                       {"regime", regime},
                       {"values", value_cells(filters, line->second)},
-                      {"bound", number(bound_of(line->second))},
-                      {"bound_sort", sort_key(bound_of(line->second))}});
+                      {"references", reference_cells(line->second)}});
     }
   }
   Json all = Json::array();
@@ -147,7 +162,7 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
                     {"mean", mean_text(row, comparison.cells[cell].runs)},
                     {"ci95", range(row.ci95)},
                     {"predicted", number(row.predicted)},
-                    {"bound", number(row.hindsight.best_fixed_gains)},
+                    {"references", reference_cells(row.hindsight)},
                     {"difference", difference},
                     {"verdict", to_string(row.significance)},
                     {"css", css_of(row.significance)}});
@@ -170,8 +185,7 @@ nlohmann::json object_table(const Comparison& comparison, std::size_t cell) {
     rows.push_back({{"object", subject.second},
                     {"regime", subject.first},
                     {"values", value_cells(filters, by_filter)},
-                    {"bound", number(bound_of(by_filter))},
-                    {"bound_sort", sort_key(bound_of(by_filter))}});
+                    {"references", reference_cells(by_filter)}});
   }
   const std::size_t left_out = lines.size() - rows.size();
   return {{"filters", named(comparison, filters)},

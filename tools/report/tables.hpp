@@ -10,16 +10,19 @@
 
 namespace ghtrack::report {
 
-/// [{filters: [{name, css}], rows: [{scene, sweep, href, regime, values, bound}]}]: RMSE of
+/// [{filters: [{name, css}], rows: [{scene, sweep, href, regime, values, references}]}]: RMSE of
 /// position, regime by filter; cells that compare the same filters share a table.
 nlohmann::json summary_tables(const Comparison& comparison);
 
-/// [{subject, metric, filter, mean, ci95, predicted, bound, difference, verdict, css,
+/// [{subject, metric, filter, mean, ci95, predicted, references, difference, verdict, css,
 /// runs}]: all metrics of the regimes of a cell, and of the scene as a whole.
 nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell);
 
-/// {filters, rows: [{object, regime, values, bound}], left_out}: RMSE of position of the objects.
+/// {filters, rows: [{object, regime, values, references}], left_out}: RMSE of position of the objects.
 nlohmann::json object_table(const Comparison& comparison, std::size_t cell);
+
+/// [{title}] of `references`, which are [{text, sort}]: what errors may be held against.
+nlohmann::json reference_names();
 
 /// [{name, css}] of the filters that the cell has rows of.
 nlohmann::json filters_of(const Comparison& comparison, std::size_t cell);

@@ -22,6 +22,15 @@ std::string range(const std::optional<Interval>& interval) {
   return interval ? fmt::format("{:.3g} to {:.3g}", interval->low, interval->high) : "";
 }
 
+Json references_json(const Hindsight& hindsight) {
+  Json all = Json::array();
+  for (const Reference& reference : kReferences) {
+    const std::optional<double>& rmse = hindsight.*reference.value;
+    all.push_back({{"title", reference.title}, {"text", rmse ? number(*rmse) : ""}});
+  }
+  return all;
+}
+
 Json judged_rows(const TunedRegime& regime) {
   Json rows = Json::array();
   for (const JudgedGains& judged : regime.judged) {
@@ -58,7 +67,7 @@ std::string tuning_report(const Tuning& tuning) {
     Json values = {{"regime", regime.regime},
                    {"acceleration", number(regime.acceleration)},
                    {"tracking_index", number(regime.tracking_index)},
-                   {"bound", regime.hindsight.best_fixed_gains ? number(*regime.hindsight.best_fixed_gains) : ""},
+                   {"references", references_json(regime.hindsight)},
                    {"judged", judged_rows(regime)}};
     add_surface(values, tuning, regime);
     regimes.push_back(std::move(values));

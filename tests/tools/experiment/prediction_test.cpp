@@ -13,13 +13,17 @@
 namespace ghtrack {
 namespace {
 
-/// A body that speeds up for a while, followed by one filter of every kind.
-Comparison compared(const std::string& sensors, const std::string& more = "") {
+/// A body that speeds up for a while.
+const char* const kSpeedsUp =
+    "train: {stock: ideal, speed: 20, drive: [{at: 8, accelerate: 1}, {at: 12, accelerate: 0}]}";
+
+/// Something followed by one filter of every kind.
+Comparison compared(const std::string& sensors, const std::string& motion = kSpeedsUp) {
   const std::string text = R"(
 name: predicted
 duration: 20
 targets:
-  - {name: a, train: {stock: ideal, speed: 20, drive: [{at: 8, accelerate: 1}, {at: 12, accelerate: 0}]}}
+  - {name: a, )" + motion + R"(}
 sensors: )" + sensors + R"(
 tracker: {association: known}
 compare:
@@ -40,7 +44,7 @@ compare:
     models: {multiple-model: {filters: {calm: {gh: {g: 0.1, h: 0.005}}, turn: {ghk: {g: 0.6, h: 0.3, k: 0.05}}}}}
     huber: {gh: {g: 0.3, h: 0.05, huber: 1.345}}
     huber kalman: {kalman-cv: {process_noise: 1, huber: 1.345}}
-)" + more;
+)";
   const Campaign campaign{
       {{std::get<WorldScene>(read_scene_text(text, "predicted.yaml")), "predicted.yaml", ""}}};
   return compare(campaign, groups_by_truth(campaign), testing::all_results(campaign, 2), 2);
@@ -74,6 +78,23 @@ TEST(Prediction, HoldsWithMissesSeveralSensorsAndBias) {
   expect_predicted(compared(
       "[{name: cam, rate: 10, noise: 0.5, detection_probability: 0.8, bias: [0.2, 0.1]}, "
       "{name: far, rate: 3, phase: 0.037, noise: 2}]"));
+}
+
+// Property: and with heavy tails and outliers.
+TEST(Prediction, HoldsWithHeavyTails) {
+  expect_predicted(compared(
+      "[{name: cam, rate: 10, noise: 0.5, student_dof: 5, outlier_probability: 0.02, "
+      "outlier_scale: 4}]"));
+}
+
+// Property: and with range and bearing, whose errors have a direction, and of a ball, whose motion no
+// filter here has as its model.
+TEST(Prediction, HoldsWithRadar) {
+  const std::string radar =
+      "[{name: radar, rate: 10, site: [0, -200], kind: radar, sigma_range: 1, sigma_bearing_deg: "
+      "0.3}]";
+  expect_predicted(compared(radar));
+  expect_predicted(compared(radar, "ball: {position: [0, 2], velocity: [15, 70]}"));
 }
 
 // Property: errors without a variance have no prediction.

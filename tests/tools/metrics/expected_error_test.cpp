@@ -70,6 +70,38 @@ TEST(ExpectedError, TendsToTheSteadyState) {
   EXPECT_NEAR(value.innovation->covariance(0, 0), variance * (1.0 + noise.prediction), 1e-9);
 }
 
+// Derived: with errors that have a direction of their own, a g-h filter lets through as much of them
+// as of any others, after any time: K H is a number, so P tends to VRF_x R.
+TEST(ExpectedError, StaysWhatItIsForARadar) {
+  SensorConfig sensor = camera();
+  Radar radar;
+  radar.sigma_range = 1.0;
+  radar.sigma_bearing_deg = 0.3;
+  sensor.model = radar;
+  const auto errors = error_parts(sensor).value();
+  TruthState truth;
+  truth.position = {200.0, 200.0};
+  std::optional<ExpectedError> error;
+  for (int i = 0; i < 2000; ++i) {
+    const double turn = 1e-4 * ((i * 7) % 5 - 2);  // detections tell slightly other covariances
+    Detection detection = radar.measure(truth.position, sensor.site, {0.0, turn}).value();
+    const SensedDetection used{sensor, errors, detection};
+    if (error) {
+      error->advance(truth, kPeriod * i, used);
+    } else {
+      error.emplace(gh(0.5, 0.2), truth, used, 0.0, 1);
+    }
+  }
+  const ExpectedError::Value value = error->value(truth);
+  const Eigen::Matrix2d r =
+      noiseless_detection(sensor, truth.position).value().covariance;
+  const VarianceReduction noise = variance_reduction(Gains::of_gh(0.5, 0.2), kPeriod);
+  EXPECT_NEAR(value.position_variance, noise.x * r.trace(), 1e-3 * r.trace());
+  ASSERT_TRUE(value.innovation);
+  EXPECT_NEAR(value.innovation->covariance(0, 1), (1.0 + noise.prediction) * r(0, 1),
+              1e-3 * r.trace());
+}
+
 // Derived: growing memory of order 1 after n measurements: variance 2 (2n − 1) / (n (n + 1)) σ² per
 // axis (Zarchan & Musoff 2000), exact for constant velocity.
 TEST(ExpectedError, IsExactWhileStarting) {

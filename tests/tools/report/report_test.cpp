@@ -89,7 +89,7 @@ TEST(Report, ShowsTunedGains) {
                      .regimes = {{.regime = surface.regime,
                                   .acceleration = 0.3,
                                   .tracking_index = 0.01,
-                                  .hindsight = {.raw = 0.4, .best_fixed_gains = 0.2, .best = {}, .smoother = 0.1},
+                                  .hindsight = {.raw = 0.4, .best_fixed_gains = 0.2, .best = {}, .crlb = {}, .smoother = 0.1},
                                   .best = Gains::of_gh(0.25, 0.03),
                                   .judged = {{.origin = "tuned",
                                               .filter = "gh",
