@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensors/view_geometry.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
 namespace {
-
-constexpr double kRadiansPerDegree = portable::kPi / 180.0;
 
 Vec2 middle_of(const ImageSize& image) { return {0.5 * image[0], 0.5 * image[1]}; }
 

@@ -2,18 +2,11 @@
 
 #include <cmath>
 
+#include "sensors/view_geometry.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
 namespace {
-
-constexpr double kRadiansPerDegree = portable::kPi / 180.0;
-
-Vec2 turned(const Vec2& direction, double angle) {
-  const portable::SinCos turn = portable::sin_cos(angle);
-  return {turn.cos * direction.x() - turn.sin * direction.y(),
-          turn.sin * direction.x() + turn.cos * direction.y()};
-}
 
 Measurement as_measured(const PolarMeasurement& polar, const PolarNoise& noise, const Vec2& site) {
   const double bearing = portable::atan2(polar.direction.y(), polar.direction.x());

@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/portable_math.hpp"
-
 namespace ghtrack {
 namespace {
 
 using Eigen::Vector2d;
-
-/// The axis turned by an angle [rad].
-Vector2d turned(const Vector2d& axis, double angle) {
-  const portable::SinCos turn = portable::sin_cos(angle);
-  return {turn.cos * axis.x() - turn.sin * axis.y(), turn.sin * axis.x() + turn.cos * axis.y()};
-}
 
 double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -66,6 +58,12 @@ struct OutlineOf {
 };
 
 }  // namespace
+
+Vector2d turned(const Vector2d& vector, double angle) {
+  const portable::SinCos turn = portable::sin_cos(angle);
+  return {turn.cos * vector.x() - turn.sin * vector.y(),
+          turn.sin * vector.x() + turn.cos * vector.y()};
+}
 
 Vector2d point_in(const FieldOfView& view, double u, double v) {
   return std::visit(PointIn{u, v}, view);

@@ -3,8 +3,14 @@
 #include <vector>
 
 #include "sensors/field_of_view.hpp"
+#include "sim/portable_math.hpp"
 
 namespace ghtrack {
+
+inline constexpr double kRadiansPerDegree = portable::kPi / 180.0;
+
+/// A vector turned by an angle [rad], counter-clockwise.
+Eigen::Vector2d turned(const Eigen::Vector2d& vector, double angle);
 
 /// A point of a field of view, spread evenly over its area as u and v are over [0, 1); the origin
 /// if it sees everything [m].

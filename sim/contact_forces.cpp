@@ -1,6 +1,7 @@
 #include "sim/contact_forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,8 @@ namespace {
 
 constexpr int kPatience = 100;    // sweeps in which the change must halve
 constexpr double kExact = 1e-11;  // of the largest rate
+constexpr int kFirstLeap = 8;     // sweeps before the first leap; each later one after twice as many
+constexpr std::size_t kMostUnknowns = 100;  // of a leap
 
 /// One touch at work on its bodies.
 class Row {
@@ -28,6 +31,57 @@ class Row {
     other_.rate -= other_.inverse_mass * impulse;
     one_.spin_rate += one_.inverse_inertia * (one_.radius * grip + couple);
     other_.spin_rate += other_.inverse_inertia * other_.radius * grip;
+  }
+
+  /// What a leap solves for: forces that are at none of their bounds.
+  enum class Unknown { kPush, kGrip, kCouple };
+
+  bool is_free(Unknown unknown) const {
+    if (unknown == Unknown::kPush) return touch_.holds || touch_.push > 0.0;
+    if (touch_.push <= 0.0) return false;
+    if (unknown == Unknown::kGrip) {
+      const double most = touch_.friction * touch_.push;
+      return std::abs(touch_.grip) < most && (touch_.slip == 0.0 || touch_.grip != 0.0);
+    }
+    const double most = touch_.rolling * one_.radius * touch_.push;
+    return touch_.rolling > 0.0 && touch_.direction == 0.0 && std::abs(touch_.couple) < most;
+  }
+
+  /// More of one force; a push takes along what is at a bound that grows with it.
+  void add(Unknown unknown, double amount) {
+    double push = 0.0;
+    double grip = 0.0;
+    double couple = 0.0;
+    if (unknown == Unknown::kPush) {
+      push = amount;
+      if (touch_.push > 0.0) {
+        if (!is_free(Unknown::kGrip)) grip = amount * touch_.grip / touch_.push;
+        if (!is_free(Unknown::kCouple)) couple = amount * touch_.couple / touch_.push;
+      }
+    } else {
+      (unknown == Unknown::kGrip ? grip : couple) = amount;
+    }
+    added_ = {added_[0] + push, added_[1] + grip, added_[2] + couple};
+    apply(push, grip, couple);
+  }
+
+  /// Takes what was added into the touch.
+  void keep() {
+    touch_.push += added_[0];
+    touch_.grip += added_[1];
+    touch_.couple += added_[2];
+    added_ = {0.0, 0.0, 0.0};
+  }
+  void forget() { added_ = {0.0, 0.0, 0.0}; }
+
+  /// What a free force holds at zero.
+  double residue(Unknown unknown) const {
+    if (unknown == Unknown::kPush) {
+      return touch_.normal.dot(one_.rate - other_.rate) + touch_.normal_offset;
+    }
+    if (unknown == Unknown::kCouple) return one_.spin_rate;
+    return tangent_.dot(one_.rate - other_.rate) + one_.radius * one_.spin_rate +
+           other_.radius * other_.spin_rate + touch_.slip_offset;
   }
 
   /// @returns by how much a rate has changed
@@ -73,7 +127,80 @@ class Row {
   Vec2 tangent_;
   double inverse_mass_;
   double inverse_slip_;
+  std::array<double, 3> added_{};  // push, grip and couple
 };
+
+/// Solves a x = b by Gauss' elimination with the largest pivot; of what the equations leave open,
+/// as where more friction holds than is needed, nothing.
+/// @param a  row by row, size × size; in pieces afterwards
+void eliminate(std::vector<double>& a, std::vector<double>& b) {
+  const std::size_t size = b.size();
+  const auto at = [&](std::size_t row, std::size_t column) -> double& {
+    return a[row * size + column];
+  };
+  double largest = 0.0;
+  for (const double entry : a) largest = std::max(largest, std::abs(entry));
+  std::vector<std::size_t> pivot_of(size, size);  // of a column: the row that has it
+  std::vector<bool> used(size, false);
+  for (std::size_t column = 0; column < size; ++column) {
+    std::size_t best = size;
+    for (std::size_t row = 0; row < size; ++row) {
+      if (used[row]) continue;
+      if (best == size || std::abs(at(row, column)) > std::abs(at(best, column))) best = row;
+    }
+    if (best == size || std::abs(at(best, column)) < 1e-10 * largest) continue;
+    used[best] = true;
+    pivot_of[column] = best;
+    for (std::size_t row = 0; row < size; ++row) {
+      if (row == best || at(row, column) == 0.0) continue;
+      const double factor = at(row, column) / at(best, column);
+      for (std::size_t k = column; k < size; ++k) at(row, k) -= factor * at(best, k);
+      b[row] -= factor * b[best];
+    }
+  }
+  std::vector<double> x(size, 0.0);
+  for (std::size_t column = 0; column < size; ++column) {
+    const std::size_t row = pivot_of[column];
+    if (row < size) x[column] = b[row] / at(row, column);
+  }
+  b = x;
+}
+
+/// Goes to where the forces that are at no bound hold what they should, if all others stay at
+/// theirs: where these are right, that is the answer.
+void leap(std::vector<Pushed>& bodies, std::vector<Row>& rows) {
+  struct Place {
+    std::size_t row;
+    Row::Unknown unknown;
+  };
+  std::vector<Place> unknowns;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const auto unknown : {Row::Unknown::kPush, Row::Unknown::kGrip, Row::Unknown::kCouple}) {
+      if (rows[i].is_free(unknown)) unknowns.push_back({i, unknown});
+    }
+  }
+  const std::size_t size = unknowns.size();
+  if (size == 0 || size > kMostUnknowns) return;
+  std::vector<double> wanted(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    wanted[i] = -rows[unknowns[i].row].residue(unknowns[i].unknown);
+  }
+  const std::vector<Pushed> before = bodies;
+  std::vector<double> effect(size * size);
+  for (std::size_t j = 0; j < size; ++j) {
+    rows[unknowns[j].row].add(unknowns[j].unknown, 1.0);
+    rows[unknowns[j].row].forget();
+    for (std::size_t i = 0; i < size; ++i) {
+      effect[i * size + j] = rows[unknowns[i].row].residue(unknowns[i].unknown) + wanted[i];
+    }
+    std::copy(before.begin(), before.end(), bodies.begin());
+  }
+  eliminate(effect, wanted);
+  for (std::size_t j = 0; j < size; ++j) {
+    rows[unknowns[j].row].add(unknowns[j].unknown, wanted[j]);
+  }
+  for (Row& row : rows) row.keep();
+}
 
 }  // namespace
 
@@ -89,12 +216,32 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, in
   }
   // Up and down in turn: what leans on what is not known.
   double earlier = std::numeric_limits<double>::infinity();  // change, kPatience sweeps ago
+  // Sweeps find out soon which forces are at their bounds, and the others late: these are leapt to,
+  // and the leap is taken back if the next sweep finds more to change than the one before.
+  std::vector<Pushed> bodies_before;
+  std::vector<Touch> touches_before;
+  double change_before = 0.0;
+  double change = 0.0;
+  int next_leap = kFirstLeap;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double change = 0.0;
+    const bool leaps = sweep == next_leap;
+    if (leaps) {
+      next_leap *= 2;
+      bodies_before = bodies;
+      touches_before = touches;
+      change_before = change;
+      leap(bodies, rows);
+    }
+    change = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       change = std::max(change, rows[sweep % 2 == 0 ? i : rows.size() - 1 - i].improve());
     }
     if (change <= kExact * largest) break;
+    if (leaps && !(change < change_before)) {
+      std::copy(bodies_before.begin(), bodies_before.end(), bodies.begin());
+      std::copy(touches_before.begin(), touches_before.end(), touches.begin());
+      change = change_before;
+    }
     if (sweep % kPatience != kPatience - 1) continue;
     if (change > 0.5 * earlier) break;  // friction has no answer, or none that it converges to
     earlier = change;

@@ -53,9 +53,11 @@ inline Vec2 tangent_to(const Vec2& normal) { return {normal.y(), -normal.x()}; }
 /// push that holds against turning:
 ///   0 ≤ push ⟂ parting + normal_offset ≥ 0
 /// by projected Gauss–Seidel iteration (Jourdan, Alart & Jean 1998), until nothing changes by more
-/// than rounding, or so many sweeps were made: a column of n bodies needs about n², a light body
-/// between heavy ones as many as the ratio of their masses. The bodies' rates are those with these
-/// forces afterwards.
+/// than rounding, or so many sweeps were made. Sweeps alone need about n² for a column of n bodies,
+/// and as many as the ratio of masses for a light body between heavy ones; so the linear equations
+/// of what touches, sticks and slides are solved now and then, and sweeps tell whether that is the
+/// answer (Silcowitz, Niebe & Erleben 2010). The bodies' rates are those with these forces
+/// afterwards.
 void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps);
 
 }  // namespace ghtrack

@@ -800,7 +800,7 @@ class Encounter {
     for (std::size_t i = 0; i < logs.size(); ++i) {
       for (const Impact& impact : logs[i]) {
         meeting_.hits.push_back({impact.time, static_cast<int>(i), -1, impact.surface,
-                                 impact.position, impact.impulse});
+                                 impact.position, impact.impulse, impact.kind});
       }
       const Vec2 position = position_of(then.round[i], i);
       meeting_.lowest[i] = meeting_.lowest[i].cwiseMin(position);

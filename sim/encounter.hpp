@@ -25,6 +25,7 @@ struct Hit {
   int surface = -1;              // which
   Vec2 position = Vec2::Zero();  // of the centre of the one [m]
   Vec2 impulse = Vec2::Zero();   // that the one received [N s]
+  EventKind kind = EventKind::kContact;
 };
 
 /// What became of them.

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/surface.hpp"
@@ -13,19 +17,30 @@ namespace ghtrack {
 
 inline constexpr double kStandardGravity = 9.80665;  // [m/s²], CGPM 1901
 
+/// How the density of the air changes with height.
+enum class Atmosphere { kUniform, kStandard };
+
+constexpr std::array<std::pair<std::string_view, Atmosphere>, 2> enum_names(Atmosphere) {
+  return {{{"uniform", Atmosphere::kUniform}, {"standard", Atmosphere::kStandard}}};
+}
+
 struct Air {
   double density = 1.2;
   double viscosity = 1.81e-5;
+  Atmosphere atmosphere = Atmosphere::kUniform;
 
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("density", &Air::density,
-            {.unit = "kg/m^3", .meaning = "0 is a vacuum", .minimum = 0.0, .maximum = 10.0});
+            {.unit = "kg/m^3", .meaning = "at height 0; 0 is a vacuum", .minimum = 0.0, .maximum = 10.0});
     v.field("viscosity", &Air::viscosity,
             {.unit = "Pa s",
              .meaning = "dynamic viscosity, for Reynolds numbers",
              .above = 0.0,
              .maximum = 1.0});
+    v.field("atmosphere", &Air::atmosphere,
+            {.meaning = "standard: thinner with height as the standard atmosphere (ISO 2533), with "
+                        "`density` at height 0"});
   }
 };
 
@@ -64,14 +79,30 @@ class Environment {
 
   const Vec2& gravity() const { return gravity_; }  // [m/s²]
   const Air& air() const { return air_; }
+
+  /// Density of the air at a height, a y [kg/m³].
+  double air_density(double height) const {
+    return air_.atmosphere == Atmosphere::kUniform ? air_.density
+                                                   : air_.density * standard_thinning(height);
+  }
   const Wind& wind() const { return wind_; }
   const std::vector<Surface>& surfaces() const { return surfaces_; }
+  std::uint64_t seed() const { return seed_; }  // of the run
+
+  /// What a surface is called: "ground", "walls[2]", "boxes[0]".
+  const std::string& surface_name(int surface) const {
+    return surface_names_[static_cast<std::size_t>(surface)];
+  }
 
  private:
+  static double standard_thinning(double height);
+
   Vec2 gravity_;
   Air air_;
   Wind wind_;
   std::vector<Surface> surfaces_;
+  std::vector<std::string> surface_names_;
+  std::uint64_t seed_;
 };
 
 }  // namespace ghtrack

@@ -1,6 +1,7 @@
 #include "sim/mover.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <utility>
 
 #include "sim/random.hpp"
@@ -8,16 +9,26 @@
 namespace ghtrack {
 namespace {
 
+/// Random motion is told where its numbers come from.
 template <class Models>
-Models make_model(const Regime& regime) {
+Models make_model(const Regime& regime, const RandomSource& source) {
   return std::visit(
-      [](const auto& r) { return Models(typename std::decay_t<decltype(r)>::Model(r)); }, regime);
+      [&]<class R>(const R& r) {
+        using Model = typename R::Model;
+        if constexpr (std::constructible_from<Model, const R&, const RandomSource&>) {
+          return Models(Model(r, source));
+        } else {
+          return Models(Model(r));
+        }
+      },
+      regime);
 }
 
 }  // namespace
 
 Mover::Mover(const Target& target, const Environment& environment)
-    : model_(make_model<Fold<Regime>::Models>(target.motion)),
+    : model_(make_model<Fold<Regime>::Models>(target.motion,
+                                              {environment.seed(), key_of(target.name)})),
       key_(key_of(target.name)),
       appears_(target.appears),
       disappears_(target.disappears.value_or(std::numeric_limits<double>::infinity())),

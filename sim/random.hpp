@@ -19,6 +19,13 @@ enum class Purpose : std::uint32_t {
   kGeneration = 8,
   kOutlier = 9,
   kResampling = 10,
+  kProcessNoise = 11,
+};
+
+/// Where the random numbers of one object come from.
+struct RandomSource {
+  std::uint64_t seed = 0;
+  std::uint64_t key = 0;  // the object's
 };
 
 /// A name as a 64-bit key for random streams: FNV-1a.

@@ -117,7 +117,7 @@ Spelled spell(const std::vector<Target>& targets) {
   return result;
 }
 
-/// Where a round target begins.
+/// Where a round target that gives way begins.
 struct Beginning {
   std::size_t target;
   double appears;
@@ -131,9 +131,10 @@ std::vector<Beginning> beginnings_of(const std::vector<Target>& targets) {
     if (targets[i].released_by) continue;
     std::visit(
         [&]<class R>(const R& motion) {
-          const Outline outline = typename R::Model(motion).contact().outline;
-          if (outline.shape == Outline::Shape::kBox) return;
-          beginnings.push_back({i, targets[i].appears, motion.position, 0.5 * outline.length});
+          if constexpr (IsRoundModel<typename R::Model>) {
+            const Outline outline = typename R::Model(motion).contact().outline;
+            beginnings.push_back({i, targets[i].appears, motion.position, 0.5 * outline.length});
+          }
         },
         targets[i].motion);
   }

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ghtrack {
@@ -36,6 +39,7 @@ struct TruthState {
   Vec2 position = Vec2::Zero();      // [m]
   Vec2 velocity = Vec2::Zero();      // [m/s]
   Vec2 acceleration = Vec2::Zero();  // [m/s²]
+  Vec2 wind = Vec2::Zero();          // of the air where it is, if that is to be recorded [m/s]
 };
 
 /// Pose of one rigid part, such as one car of a train, for pictures and occlusion.
@@ -44,6 +48,39 @@ struct BodyPose {
   Vec2 position = Vec2::Zero();  // [m]
   double angle = 0.0;            // [rad], counter-clockwise
   double spin = 0.0;             // [rad/s]
+};
+
+/// What may be recorded of objects beside their kinematics.
+enum class TruthColumn { kHeading, kSpin, kWind };
+
+constexpr std::array<std::pair<std::string_view, TruthColumn>, 3> enum_names(TruthColumn) {
+  return {{{"heading", TruthColumn::kHeading},
+           {"spin", TruthColumn::kSpin},
+           {"wind", TruthColumn::kWind}}};
+}
+
+/// What can happen to an object.
+enum class EventKind {
+  kContact,   // it was struck, by another object or by a surface
+  kCoupling,  // it was coupled to another
+  kBurst,     // it burst
+};
+
+constexpr std::array<std::pair<std::string_view, EventKind>, 3> enum_names(EventKind) {
+  return {{{"contact", EventKind::kContact},
+           {"coupling", EventKind::kCoupling},
+           {"burst", EventKind::kBurst}}};
+}
+
+/// Something that has happened to an object.
+struct WorldEvent {
+  double time = 0.0;  // [s]
+  EventKind kind = EventKind::kContact;
+  ObjectId object = 0;
+  ObjectId other = -1;           // −1: no object
+  std::string surface = {};      // of the surroundings: "ground", "walls[2]"; empty: none
+  Vec2 position = Vec2::Zero();  // of the object's centre [m]
+  Vec2 impulse = Vec2::Zero();   // that it received [N s]
 };
 
 /// The state of the world at one instant. Objects that have not appeared yet are absent.

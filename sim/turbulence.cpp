@@ -1,9 +1,8 @@
 #include "sim/turbulence.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sim/portable_math.hpp"
 #include "sim/random.hpp"
@@ -13,46 +12,6 @@ namespace {
 
 constexpr std::size_t kMaxNodes = 50'000;  // about 220 MB
 
-Eigen::Matrix2d transition_over(double x) {
-  const double decay = portable::exp(-x);
-  Eigen::Matrix2d transition;
-  transition << decay, 0.0, x * decay, decay;
-  return transition;
-}
-
-/// ∫₀ˣ 2 uⁿ e^(−2u) du, by its series where the closed form would cancel.
-double noise_integral(int n, double x) {
-  if (x > 1.0) {
-    const double e = portable::exp(-2.0 * x);
-    if (n == 0) return 1.0 - e;
-    if (n == 1) return 0.5 * (1.0 - e * (1.0 + 2.0 * x));
-    return 0.5 * (1.0 - e * (1.0 + 2.0 * x + 2.0 * x * x));
-  }
-  double power = 2.0 * x;
-  for (int i = 0; i < n; ++i) power *= x;
-  double sum = 0.0;
-  for (int k = 0; k < 30; ++k) {
-    sum += power / (n + 1 + k);
-    power *= -2.0 * x / (k + 1);
-  }
-  return sum;
-}
-
-/// Covariance of (z1, z2) after the time x T, given the state before.
-Eigen::Matrix2d noise_over(double x) {
-  Eigen::Matrix2d noise;
-  noise << noise_integral(0, x), noise_integral(1, x), noise_integral(1, x), noise_integral(2, x);
-  return noise;
-}
-
-Eigen::Matrix2d root_of(const Eigen::Matrix2d& covariance) { return covariance.llt().matrixL(); }
-
-Eigen::Vector2d draw(Stream& stream) {
-  const double first = stream.normal();
-  const double second = stream.normal();
-  return {first, second};
-}
-
 double smooth_step(double x) { return x * x * x * (10.0 - x * (15.0 - 6.0 * x)); }
 
 std::uint64_t key_of_node(std::int64_t column, std::int64_t row) {
@@ -60,32 +19,9 @@ std::uint64_t key_of_node(std::int64_t column, std::int64_t row) {
          static_cast<std::uint64_t>(row) * 0xc2b2ae3d27d4eb4f;
 }
 
-const Eigen::RowVector2d kLongitudinal(1.0, 0.0);
-const Eigen::RowVector2d kTransverse(std::sqrt(1.5), (1.0 - std::sqrt(3.0)) / std::sqrt(2.0));
-
-}  // namespace
-
-Turbulence::Turbulence(const TurbulenceConfig& config, const Vec2& mean_wind, std::uint64_t seed)
-    : seed_(seed) {
-  if (const auto* gusts = std::get_if<OrnsteinUhlenbeck>(&config.model)) {
-    if (gusts->sigma == 0.0) return;
-    spacing_ = gusts->coherence;
-    const Eigen::RowVector2d output = gusts->sigma * kLongitudinal;
-    axes_ = {make_axis(Vec2::UnitX(), output, gusts->correlation_time),
-             make_axis(Vec2::UnitY(), output, gusts->correlation_time)};
-  }
-  if (const auto* dryden = std::get_if<Dryden>(&config.model)) {
-    constexpr std::array<DrydenPart, 1> kWhole{{{1.0, 1.0}}};
-    add_low_altitude(*dryden, mean_wind, kWhole, 1.0);
-  }
-  if (const auto* karman = std::get_if<VonKarman>(&config.model)) {
-    add_low_altitude(*karman, mean_wind, kVonKarmanParts, kVonKarmanLength);
-  }
-}
-
-void Turbulence::add_low_altitude(const LowAltitude& turbulence, const Vec2& mean_wind,
-                                  std::span<const DrydenPart> parts, double length_factor) {
-  if (turbulence.intensity == 0.0) return;
+std::vector<GustAxis> low_altitude_axes(const LowAltitude& turbulence, const Vec2& mean_wind,
+                                        std::span<const DrydenPart> parts, double length_factor) {
+  if (turbulence.intensity == 0.0) return {};
   constexpr double kFeet = 0.3048;
   const double mean = mean_wind.norm();
   const double speed = turbulence.speed.value_or(mean);
@@ -96,36 +32,50 @@ void Turbulence::add_low_altitude(const LowAltitude& turbulence, const Vec2& mea
   const double across_sigma = along_sigma * portable::pow(shape, 0.4);
   const Vec2 along = mean > 0.0 ? Vec2(mean_wind / mean) : Vec2::UnitX();
   const Vec2 across(-along.y(), along.x());
-  spacing_ = along_length;
+  std::vector<GustAxis> axes;
   for (const DrydenPart& part : parts) {
     const double amplitude = std::sqrt(part.weight);
     const double factor = length_factor / part.rate;
-    axes_.push_back(
-        make_axis(along, amplitude * along_sigma * kLongitudinal, factor * along_length / speed));
-    axes_.push_back(make_axis(across, amplitude * across_sigma * kTransverse,
-                              factor * turbulence.height / speed));
+    axes.push_back({along,
+                    GustProcess(GustProcess::longitudinal(amplitude * along_sigma),
+                                factor * along_length / speed),
+                    along_length});
+    axes.push_back({across,
+                    GustProcess(GustProcess::transverse(amplitude * across_sigma),
+                                factor * turbulence.height / speed),
+                    turbulence.height});
   }
+  return axes;
 }
 
-Turbulence::Axis Turbulence::make_axis(const Vec2& direction, const Eigen::RowVector2d& output,
-                                       double time) {
-  double x = kBlock / (kKnotsPerSecond * time);
-  Axis axis{direction, output, transition_over(x), root_of(noise_over(x)), {}};
-  for (Halving& halving : axis.halvings) {
-    x *= 0.5;
-    const Eigen::Matrix2d transition = transition_over(x);
-    const Eigen::Matrix2d noise = noise_over(x);
-    const Eigen::Matrix2d spread_at_end = transition * noise * transition.transpose() + noise;
-    const Eigen::Matrix2d gain = noise * transition.transpose() * spread_at_end.inverse();
-    halving.from_left = transition - gain * transition * transition;
-    halving.from_right = gain;
-    halving.spread = root_of(noise - gain * transition * noise);
+}  // namespace
+
+std::vector<GustAxis> gust_axes(const TurbulenceConfig& config, const Vec2& mean_wind) {
+  if (const auto* gusts = std::get_if<OrnsteinUhlenbeck>(&config.model)) {
+    if (gusts->sigma == 0.0) return {};
+    const GustProcess process(GustProcess::longitudinal(gusts->sigma), gusts->correlation_time);
+    return {{Vec2::UnitX(), process, gusts->coherence}, {Vec2::UnitY(), process, gusts->coherence}};
   }
-  return axis;
+  if (const auto* dryden = std::get_if<Dryden>(&config.model)) {
+    constexpr std::array<DrydenPart, 1> kWhole{{{1.0, 1.0}}};
+    return low_altitude_axes(*dryden, mean_wind, kWhole, 1.0);
+  }
+  if (const auto* karman = std::get_if<VonKarman>(&config.model)) {
+    return low_altitude_axes(*karman, mean_wind, kVonKarmanParts, kVonKarmanLength);
+  }
+  return {};
+}
+
+Turbulence::Turbulence(const TurbulenceConfig& config, const Vec2& mean_wind, std::uint64_t seed)
+    : seed_(seed), axes_(gust_axes(config, mean_wind)) {
+  if (axes_.empty()) return;
+  spacing_ = axes_.front().coherence;
+  if (config.carried) carried_.emplace(axes_, mean_wind, seed);
 }
 
 Vec2 Turbulence::at(const Vec2& position, double time) {
   if (calm()) return Vec2::Zero();
+  if (carried_) return carried_->at(position, time);
   const double knot = std::floor(time * kKnotsPerSecond);
   const double fraction = time * kKnotsPerSecond - knot;
   const auto knot_index = static_cast<std::int64_t>(knot);
@@ -205,11 +155,8 @@ const Turbulence::Block& Turbulence::block_at(std::uint64_t node_key, std::int64
 
 void Turbulence::start(Block& block, std::uint64_t node_key) const {
   Stream stream(seed_, Purpose::kTurbulence, node_key, 0);
-  Eigen::Matrix2d covariance;
-  covariance << 1.0, 0.5, 0.5, 0.5;
-  const Eigen::Matrix2d spread = root_of(covariance);
   for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
-    block.right[axis] = spread * draw(stream);
+    block.right[axis] = GustProcess::start(stream);
   }
   follow(block, block, node_key);
 }
@@ -220,8 +167,7 @@ void Turbulence::follow(Block& block, const Block& previous, std::uint64_t node_
                 2 * static_cast<std::uint64_t>(block.index) + 1);
   block.left = previous.right;
   for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
-    block.right[axis] =
-        axes_[axis].transition * block.left[axis] + axes_[axis].spread * draw(stream);
+    block.right[axis] = axes_[axis].process.follow(block.left[axis], stream);
   }
 }
 
@@ -230,21 +176,9 @@ void Turbulence::fill(Block& block, std::uint64_t node_key) const {
                 2 * static_cast<std::uint64_t>(block.index) + 2);
   block.gusts.fill(Vec2::Zero());
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Axis& axis = axes_[i];
-    std::array<State, kBlock + 1> states;
-    states.front() = block.left[i];
-    states.back() = block.right[i];
-    std::size_t width = kBlock;
-    for (const Halving& halving : axis.halvings) {
-      for (std::size_t knot = 0; knot < kBlock; knot += width) {
-        states[knot + width / 2] = halving.from_left * states[knot] +
-                                   halving.from_right * states[knot + width] +
-                                   halving.spread * draw(stream);
-      }
-      width /= 2;
-    }
+    const auto velocities = axes_[i].process.fill(block.left[i], block.right[i], stream);
     for (std::size_t knot = 0; knot <= kBlock; ++knot) {
-      block.gusts[knot] += (axis.output * states[knot]).value() * axis.direction;
+      block.gusts[knot] += velocities[knot] * axes_[i].direction;
     }
   }
 }

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <variant>
 #include <vector>
 
+#include "sim/gust_process.hpp"
 #include "sim/truth.hpp"
 
 namespace ghtrack {
@@ -121,26 +121,62 @@ inline constexpr std::array<DrydenPart, 4> kVonKarmanParts{
 
 struct TurbulenceConfig {
   std::variant<NoTurbulence, OrnsteinUhlenbeck, Dryden, VonKarman> model;
+  bool carried = false;
 
   template <class Visitor>
   static void describe(Visitor& v) {
     v.tagged("model", &TurbulenceConfig::model, {.meaning = "spectrum of the gusts"});
+    v.field("carried", &TurbulenceConfig::carried,
+            {.meaning = "the mean wind carries the gusts along, frozen (Taylor 1938): what drifts with "
+                        "it stays in its gust; otherwise they change where they are"});
   }
+};
+
+/// One process of the gusts; several may act along one direction.
+struct GustAxis {
+  Vec2 direction;
+  GustProcess process;
+  double coherence;  // distance across the wind over which it is the same [m]
+};
+
+/// Those of a kind of turbulence, as an observer at rest feels them; none if it is calm.
+/// @param mean_wind  its direction and speed matter for low-altitude turbulence [m/s]
+std::vector<GustAxis> gust_axes(const TurbulenceConfig& config, const Vec2& mean_wind);
+
+/// Gusts that the mean wind carries along: Taylor's frozen turbulence. Along the wind a gust is a
+/// function of t − x/U alone, so that a fixed observer sees the spectra of the model and two on a
+/// line along the wind the same gusts, one after the other, while what drifts with the wind sees
+/// them stand still. Across the wind independent processes are blended on a line of nodes, for each
+/// component with the distance of its own length scale.
+class CarriedGusts {
+ public:
+  /// @param mean_wind  not null [m/s]
+  CarriedGusts(std::vector<GustAxis> axes, const Vec2& mean_wind, std::uint64_t seed);
+
+  /// Gust velocity [m/s]; at places farther downwind than 100 km what it is there.
+  Vec2 at(const Vec2& position, double time);
+
+ private:
+  using Values = std::array<double, GustProcess::kBlock + 1>;
+
+  const Values& block_at(std::size_t axis, std::int64_t node, std::int64_t index);
+
+  std::vector<GustAxis> axes_;
+  Vec2 along_;   // direction of the mean wind
+  double speed_;
+  std::uint64_t seed_;
+  std::unordered_map<std::uint64_t, std::vector<GustProcess::State>> ends_;  // of a node's blocks
+  std::unordered_map<std::uint64_t, Values> blocks_;  // those asked for of late
 };
 
 /// Gusts as a function of place, time and seed alone: the physics rate, the number of balloons
 /// and the order of questions have no influence. Independent processes live on the nodes of a
 /// square lattice; smooth weights whose squares sum to one blend the four nodes around a point,
-/// which keeps the variance and makes neighbours feel the same gust.
-///
-/// Each process is the output of a stationary Gauss–Markov pair (z1, z2),
-///   dz1 = −z1 dt/T + √(2/T) dW,   dz2 = (z1 − z2) dt/T,
-/// whose step law is known exactly (Gillespie 1996): z1 is an Ornstein–Uhlenbeck process, and
-/// σ (√3 z1 + (1 − √3) z2) / √2 has the transverse Dryden spectrum. Blocks of knots are joined by
-/// that law and filled by conditional halving, so that a node can be entered at any time.
+/// which keeps the variance and makes neighbours feel the same gust. Gusts that the wind carries
+/// are in CarriedGusts.
 class Turbulence {
  public:
-  static constexpr double kKnotsPerSecond = 120.0;
+  static constexpr double kKnotsPerSecond = GustProcess::kKnotsPerSecond;
 
   /// @param mean_wind  its direction and speed matter for Dryden turbulence [m/s]
   Turbulence(const TurbulenceConfig& config, const Vec2& mean_wind, std::uint64_t seed);
@@ -154,29 +190,20 @@ class Turbulence {
 
   bool calm() const { return axes_.empty(); }
 
+  /// Whether its kinks lie at multiples of the time between knots, wherever one is.
+  bool has_common_knots() const { return !calm() && !carried_; }
+
   /// Gust velocity, linear in time between knots [m/s]. It remembers what it has computed: not to
   /// be called from two threads at once.
   Vec2 at(const Vec2& position, double time);
 
  private:
-  using State = Eigen::Vector2d;  // (z1, z2)
+  using State = GustProcess::State;
 
-  static constexpr int kLevels = 7;
-  static constexpr int kBlock = 1 << kLevels;  // knots from one exact step to the next
+  static constexpr int kLevels = GustProcess::kLevels;
+  static constexpr int kBlock = GustProcess::kBlock;
   static constexpr std::size_t kMostAxes = 2 * kVonKarmanParts.size();
 
-  struct Halving {  // law of the state half-way, given those at both ends
-    Eigen::Matrix2d from_left;
-    Eigen::Matrix2d from_right;
-    Eigen::Matrix2d spread;
-  };
-  struct Axis {  // one process; several may act along one direction
-    Vec2 direction;
-    Eigen::RowVector2d output;   // velocity = output × state
-    Eigen::Matrix2d transition;  // over a block
-    Eigen::Matrix2d spread;      // of the state after a block: covariance = spread spreadᵀ
-    std::array<Halving, kLevels> halvings;  // widest first
-  };
   struct Block {
     std::int64_t index = -1;
     std::array<State, kMostAxes> left;   // per axis, at the beginning
@@ -193,9 +220,6 @@ class Turbulence {
     std::array<const Block*, 4> corners{};
   };
 
-  void add_low_altitude(const LowAltitude& turbulence, const Vec2& mean_wind,
-                        std::span<const DrydenPart> parts, double length_factor);
-  static Axis make_axis(const Vec2& direction, const Eigen::RowVector2d& output, double time);
   const Cell& cell_at(std::int64_t column, std::int64_t row, std::int64_t block);
   const Block& block_at(std::uint64_t node_key, std::int64_t index);
   void start(Block& block, std::uint64_t node_key) const;
@@ -205,7 +229,8 @@ class Turbulence {
 
   std::uint64_t seed_;
   double spacing_ = 1.0;
-  std::vector<Axis> axes_;
+  std::vector<GustAxis> axes_;
+  std::optional<CarriedGusts> carried_;
   std::unordered_map<std::uint64_t, Node> nodes_;  // those asked for of late
   std::array<Cell, 16> cells_;                     // the same; emptied when nodes are forgotten
   std::int64_t newest_block_ = 0;

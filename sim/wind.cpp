@@ -64,8 +64,9 @@ Wind::Wind(const WindConfig& config, double ground, std::uint64_t seed)
     }
   }
   std::sort(kinks_.begin(), kinks_.end());
-  steady_ = kinks_.empty() && turbulence_.calm();
-  uniform_ = steady_ && !config.shear && config.vortices.empty() && config.modes.empty();
+  steady_ = kinks_.empty() && !turbulence_.has_common_knots();
+  uniform_ = steady_ && turbulence_.calm() && !config.shear && config.vortices.empty() &&
+             config.modes.empty();
 }
 
 Vec2 Wind::at(const Vec2& position, double time) const {
@@ -118,7 +119,7 @@ double Wind::next_kink(double time) const {
   double next = std::numeric_limits<double>::infinity();
   const auto gust = std::upper_bound(kinks_.begin(), kinks_.end(), time);
   if (gust != kinks_.end()) next = *gust;
-  if (turbulence_.calm()) return next;
+  if (!turbulence_.has_common_knots()) return next;
   double knot = std::floor(time * Turbulence::kKnotsPerSecond) + 1.0;
   // The division may round to `time` itself, or to less than a rounding error above it.
   while (knot / Turbulence::kKnotsPerSecond <= time + 1e-9) knot += 1.0;

@@ -233,6 +233,9 @@ struct WindConfig {
       if (model == nullptr || model->speed || mean.norm() > 0.0) return;
       report("turbulence", "this turbulence needs a mean wind, or `speed`, to carry it past");
     };
+    if (turbulence.carried && mean.norm() == 0.0) {
+      report("turbulence.carried", "needs a mean wind that carries the gusts");
+    }
     check_carried(std::get_if<Dryden>(&turbulence.model));
     check_carried(std::get_if<VonKarman>(&turbulence.model));
   }

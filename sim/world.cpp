@@ -41,6 +41,7 @@ struct World::Scenery {
 
   Environment environment;
   double rate;
+  RecordConfig record;
   std::vector<Mover> movers = {};
   std::vector<ObjectId> first_objects = {};  // of each target
   std::vector<std::size_t> first_parts = {};
@@ -50,22 +51,29 @@ struct World::Scenery {
   double last_sample = 0.0;
   std::int64_t missed_collisions = 0;
   std::vector<Displacement> displacements = {};
+  std::vector<WorldEvent> events = {};
   mutable Neighbourhood neighbourhood = {};  // its answers depend on what it is asked alone
 
   /// What one step has brought about.
   struct Outcome {
     std::int64_t missed_collisions = 0;
     std::vector<Displacement> displacements;
+    std::vector<WorldEvent> events;  // if they are recorded
   };
 
   bool is_there(const Mover::State& state, std::size_t target, double time) const {
     return movers[target].present(time) && !std::holds_alternative<std::monostate>(state);
   }
-  Mover::State alone(const States& before, std::size_t target, double from, double to) const;
+  Mover::State alone(const States& before, std::size_t target, double from, double to,
+                     ImpactLog* log = nullptr) const;
   Outcome advance(States& moved, double from, double to) const;
   Parts parts_of(const States& before, const States& after, double from) const;
   Participant participant(const States& before, const Parts& parts, std::size_t box) const;
-  std::int64_t settle_contacts(const States& before, States& after, double from, double to) const;
+  std::int64_t settle_contacts(const States& before, States& after, double from, double to,
+                               Outcome* told = nullptr) const;
+  ObjectId object_of(std::size_t target, int part) const {
+    return first_objects[target] + (movers[target].objects() > 1 ? part : 0);
+  }
   std::vector<Displacement> place_arrivals(const States& before, States& after, double to) const;
   double move_out(States& at, std::size_t target, const std::vector<std::size_t>& others,
                   double time) const;
@@ -74,7 +82,7 @@ struct World::Scenery {
 
 /// Where a target gets to if it meets no other.
 Mover::State World::Scenery::alone(const States& before, std::size_t target, double from,
-                                   double to) const {
+                                   double to, ImpactLog* log) const {
   const Mover& mover = movers[target];
   Mover::State state = before[target];
   double begin = from;
@@ -85,24 +93,38 @@ Mover::State World::Scenery::alone(const States& before, std::size_t target, dou
     mover.release(state, environment, movers[carrier].kinematics(then, environment, begin, 0),
                   begin);
   }
-  mover.advance(state, environment, begin, to, nullptr);
+  mover.advance(state, environment, begin, to, log);
   return state;
 }
 
 World::Scenery::Outcome World::Scenery::advance(States& moved, double from, double to) const {
   const States before = moved;
   bool arrivals = false;
+  Outcome outcome;
+  ImpactLog log;
   for (std::size_t i = 0; i < movers.size(); ++i) {
+    ImpactLog* const told = record.events ? &log : nullptr;
     if (carriers[i]) {
-      moved[i] = alone(before, i, from, to);
+      moved[i] = alone(before, i, from, to, told);
     } else {
-      movers[i].advance(moved[i], environment, from, to, nullptr);
+      movers[i].advance(moved[i], environment, from, to, told);
     }
     arrivals = arrivals || before[i].index() != moved[i].index();
+    for (const Impact& impact : log) {
+      outcome.events.push_back(
+          {impact.time, impact.kind, first_objects[i] + impact.object, -1,
+           impact.surface < 0 ? std::string() : environment.surface_name(impact.surface),
+           impact.position, impact.impulse});
+    }
+    log.clear();
   }
-  Outcome outcome;
-  if (from < to) outcome.missed_collisions = settle_contacts(before, moved, from, to);
+  if (from < to) {
+    outcome.missed_collisions =
+        settle_contacts(before, moved, from, to, record.events ? &outcome : nullptr);
+  }
   if (arrivals) outcome.displacements = place_arrivals(before, moved, to);
+  std::stable_sort(outcome.events.begin(), outcome.events.end(),
+                   [](const WorldEvent& a, const WorldEvent& b) { return a.time < b.time; });
   return outcome;
 }
 
@@ -134,7 +156,7 @@ Participant World::Scenery::participant(const States& before, const Parts& parts
 }
 
 std::int64_t World::Scenery::settle_contacts(const States& before, States& after, double from,
-                                             double to) const {
+                                             double to, Outcome* told) const {
   Parts parts = parts_of(before, after, from);
   if (!parts.any_yields || parts.boxes.size() < 2) return 0;
   const auto by_name = [&](std::size_t a, std::size_t b) {
@@ -150,6 +172,7 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
     std::int64_t missed = 0;
     bool left = false;
     std::vector<std::pair<std::size_t, Mover::State>> changed;
+    std::vector<WorldEvent> met;
     for (Cluster& cluster : neighbourhood.clusters(parts.boxes)) {
       // In an order that does not depend on what else is in the world.
       std::sort(cluster.yielding.begin(), cluster.yielding.end(), by_name);
@@ -163,6 +186,25 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
       Meeting meeting = meet(yielding, passing, environment, from, to);
       if (!meeting.resolved) ++missed;
       if (!meeting.touched) continue;
+      if (told != nullptr) {
+        const auto object = [&](std::size_t box) {
+          return object_of(static_cast<std::size_t>(parts.boxes[box].owner), parts.part[box]);
+        };
+        for (const Hit& hit : meeting.hits) {
+          WorldEvent event{hit.time, hit.kind,
+                           object(cluster.yielding[static_cast<std::size_t>(hit.one)])};
+          const auto other = static_cast<std::size_t>(std::max(hit.other, 0));
+          if (hit.other >= 0) {
+            event.other = object(other < yielding.size()
+                                     ? cluster.yielding[other]
+                                     : cluster.unyielding[other - yielding.size()]);
+          }
+          if (hit.surface >= 0) event.surface = environment.surface_name(hit.surface);
+          event.position = hit.position;
+          event.impulse = hit.impulse;
+          met.push_back(event);
+        }
+      }
       for (std::size_t i = 0; i < yielding.size(); ++i) {
         SweptBox& box = parts.boxes[cluster.yielding[i]];
         const Vec2 reach = Vec2::Constant(reach_of(yielding[i].mover->contact().outline));
@@ -177,6 +219,14 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
       }
     }
     if (left && round < kMostRounds) continue;
+    if (told != nullptr) {
+      // Those that met somebody did not move alone.
+      for (const auto& [owner, state] : changed) {
+        const ObjectId object = first_objects[owner];
+        std::erase_if(told->events, [&](const WorldEvent& e) { return e.object == object; });
+      }
+      told->events.insert(told->events.end(), met.begin(), met.end());
+    }
     for (auto& [owner, state] : changed) after[owner] = std::move(state);
     return missed;
   }
@@ -271,11 +321,13 @@ TruthSnapshot World::Scenery::snapshot(const States& at, double time) const {
         throw std::runtime_error("the motion of target " + std::to_string(i) + " became infinite");
       }
       truth.objects.push_back({first + object, now.position, now.velocity, now.acceleration});
+      if (record.has(TruthColumn::kWind)) {
+        truth.objects.back().wind = environment.wind().at(now.position, time);
+      }
     }
     for (int part = 0; part < movers[i].bodies(); ++part) {
       const RigidBody body = movers[i].body(at[i], part);
-      const ObjectId owner = first + (movers[i].objects() > 1 ? part : 0);
-      truth.bodies.push_back({owner, body.position, body.angle, body.spin});
+      truth.bodies.push_back({object_of(i, part), body.position, body.angle, body.spin});
     }
   }
   return truth;
@@ -283,7 +335,7 @@ TruthSnapshot World::Scenery::snapshot(const States& at, double time) const {
 
 World::World(const WorldConfig& config, std::uint64_t seed)
     : scenery_(std::make_unique<Scenery>(
-          Scenery{Environment(config.environment, seed), config.physics.rate})) {
+          Scenery{Environment(config.environment, seed), config.physics.rate, config.record})) {
   const std::vector<TargetProblem> problems = find_problems(config.targets, config.environment);
   if (!problems.empty()) {
     throw std::invalid_argument("targets[" + std::to_string(problems.front().target) +
@@ -325,6 +377,8 @@ std::int64_t World::missed_collisions() const { return scenery_->missed_collisio
 
 const std::vector<Displacement>& World::displacements() const { return scenery_->displacements; }
 
+const std::vector<WorldEvent>& World::events() const { return scenery_->events; }
+
 TruthSnapshot World::sample(double time) {
   Scenery& scenery = *scenery_;
   if (!(time >= scenery.last_sample)) {
@@ -339,6 +393,7 @@ TruthSnapshot World::sample(double time) {
     scenery.missed_collisions += outcome.missed_collisions;
     scenery.displacements.insert(scenery.displacements.end(), outcome.displacements.begin(),
                                  outcome.displacements.end());
+    scenery.events.insert(scenery.events.end(), outcome.events.begin(), outcome.events.end());
   }
   const double now = static_cast<double>(scenery.step) / scenery.rate;
   if (time - now <= kInstant) return scenery.snapshot(scenery.states, time);

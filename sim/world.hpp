@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/environment.hpp"
@@ -25,10 +27,44 @@ struct PhysicsConfig {
   }
 };
 
+/// What is recorded of the truth beside positions, velocities and accelerations.
+struct RecordConfig {
+  static constexpr std::string_view about =
+      "what is written of the truth beside positions, velocities and accelerations";
+  bool events = false;
+  std::vector<TruthColumn> columns;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("events", &RecordConfig::events,
+            {.meaning = "events.csv: contacts with their impulses, couplings, bursts"});
+    v.field("columns", &RecordConfig::columns,
+            {.meaning = "more columns of truth.csv: heading [rad], spin [rad/s], wind_x and wind_y "
+                        "at the object [m/s]",
+             .max_items = 3});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (columns[i] == columns[j]) {
+          report("columns[" + std::to_string(i) + "]", "is there already");
+        }
+      }
+    }
+  }
+
+  bool has(TruthColumn wanted) const {
+    return std::find(columns.begin(), columns.end(), wanted) != columns.end();
+  }
+};
+
 struct WorldConfig {
   PhysicsConfig physics;
   EnvironmentConfig environment;
   std::vector<Target> targets;
+  RecordConfig record = {};
 };
 
 /// A target that would have appeared inside something and was moved out of it.
@@ -71,6 +107,10 @@ class World {
 
   /// The targets that have appeared inside something so far, and were moved out of it.
   const std::vector<Displacement>& displacements() const;
+
+  /// What has happened so far, in the order of time, if it is to be recorded: up to the last whole
+  /// step of the physics.
+  const std::vector<WorldEvent>& events() const;
 
  private:
   struct Scenery;

@@ -10,8 +10,12 @@ namespace {
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// A search among that many columns is given up: its track goes without a detection. Only crowds
-/// that no sensor could resolve come near.
+/// that no sensor could resolve come near. All searches together have a budget that grows with the
+/// tracks, so that the work of a scan does; once it is spent, searches are short.
 constexpr std::size_t kMostSettled = 1000;
+constexpr std::size_t kMostSettledBeyondBudget = 20;
+constexpr std::size_t kBudget = 100'000;  // columns, and
+constexpr std::size_t kBudgetOfTrack = 10;
 
 /// State of the successive shortest path method. Column j < detections is a detection, column
 /// detections + i is the private miss column of track i.
@@ -26,7 +30,8 @@ class ShortestPaths {
         distance_(owner_.size(), kUnreached),
         is_settled_(owner_.size(), false),
         parent_(owner_.size(), kMissed),
-        assigned_column_(table.rows(), kMissed) {}
+        assigned_column_(table.rows(), kMissed),
+        budget_(kBudget + kBudgetOfTrack * assigned_column_.size()) {}
 
   std::vector<int> solve() {
     for (int track = 0; track < table_.rows(); ++track) augment(track);
@@ -56,7 +61,8 @@ class ShortestPaths {
     relax_row(track, 0.0);
     int free_column = kMissed;
     double shortest = 0.0;
-    while (free_column == kMissed && settled_.size() < kMostSettled) {
+    const std::size_t most = budget_ > 0 ? kMostSettled : kMostSettledBeyondBudget;
+    while (free_column == kMissed && settled_.size() < most) {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
       const Entry nearest = heap_.back();
       heap_.pop_back();
@@ -70,6 +76,7 @@ class ShortestPaths {
         relax_row(owner_[nearest.column], nearest.distance);
       }
     }
+    budget_ -= std::min(budget_, settled_.size());
     if (free_column == kMissed) {
       take_if_free(track, detections_ + track);
     } else {
@@ -142,6 +149,7 @@ class ShortestPaths {
   std::vector<bool> is_settled_;      // of each column, during one search: its distance is final
   std::vector<int> parent_;           // of each column, during one search: the row before it
   std::vector<int> assigned_column_;  // of each row
+  std::size_t budget_;                // columns that searches may still settle
   std::vector<Entry> heap_;
   std::vector<int> reached_, settled_;
 };

@@ -13,7 +13,7 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kLeastOdds = 1e-6;     // of a pair that is weighed
+constexpr double kLeastOddsWeighed = 1e-6;     // of a pair that is weighed
 constexpr double kGreatestOdds = 1e30;  // beyond which nothing is surer
 
 /// The tracks of a scan and the detections in their gates. The cost of a pair is −ln of its odds:
@@ -33,7 +33,7 @@ constexpr double kLeastClaim = 0.5;
 Competition compete(Look& look, double nobodys, const std::vector<Track>& tracks, bool decides) {
   const Evidence& evidence = look.design.evidence(look.scan.sensor);
   const double least = decides ? kLeastClaim : 0.0;
-  const double dearest = decides ? 0.0 : -portable::log(kLeastOdds);
+  const double dearest = decides ? 0.0 : -portable::log(kLeastOddsWeighed);
   Competition result;
   result.detection.reserve(tracks.size());
   result.table.row_start.reserve(tracks.size() + 1);

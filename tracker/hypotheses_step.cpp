@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostHypotheses = 100;  // in a cluster
 constexpr double kWithin = 11.5;              // ln of how much likelier the likeliest one may be
-constexpr double kLeastOdds = 1e-4;           // of a pair that is considered
+constexpr double kLeastOddsConsidered = 1e-4;           // of a pair that is considered
 constexpr double kMostWork = 4000.0;          // hypotheses times targets
 constexpr std::size_t kMostJoint = 24;        // targets that are explained together
 
@@ -142,7 +142,7 @@ class MultiScan {
     look_.grid.find_in_gate(track.reach, look_.config().gate, gated);
     for (const Gated& near : gated) {
       const double cost = base + surprise(track, near, members_[near.member]);
-      if (cost < -portable::log(kLeastOdds)) result.candidates.push_back({near.member, cost});
+      if (cost < -portable::log(kLeastOddsConsidered)) result.candidates.push_back({near.member, cost});
     }
     return result;
   }

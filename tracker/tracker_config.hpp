@@ -215,7 +215,8 @@ struct TrackerConfig {
     v.field("filters", &TrackerConfig::filters,
             {.meaning = "filter by reported class; `default` serves every other class and "
                         "detections without one; if it is missing, all filters run side by side "
-                        "on those and the innovations decide which one leads"});
+                        "on those and the innovations decide which one leads; with none at "
+                        "all, an `imm` of g-h filters for steady, turning and nimble targets"});
   }
 
   template <class Report>

@@ -9,9 +9,10 @@
 namespace ghtrack {
 namespace {
 
-/// The filter of detections that nobody has classified.
+/// The filter of detections that nobody has classified. Where nothing is said of any target, one that
+/// suits steady and nimble ones.
 FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) {
-  if (filters.empty()) return {};
+  if (filters.empty()) return ImmConfig{};
   if (filters.size() == 1) return filters.begin()->second;
   MultipleModelConfig all;
   for (const auto& [label, config] : filters) {

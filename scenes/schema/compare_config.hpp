@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +36,7 @@ struct CompareConfig {
   std::optional<LaunchScatter> launch;
   std::map<std::string, std::vector<double>> sweep;  // by a key of the scene
   std::map<std::string, FilterConfig> filters;       // by a name of your choice
+  std::vector<std::string> order;  // names of those that come first; the others follow by name
   std::vector<TunedKind> tuned;
 
   template <class Visitor>
@@ -58,8 +61,30 @@ struct CompareConfig {
     v.field("tuned", &CompareConfig::tuned,
             {.meaning = "kinds of filters that `ghtrack compare` tunes, for each combination of the "
                         "sweep on its own, on up to 50 runs that it then does not compare: g-h, "
-                        "g-h-k, the better of both Kalman filters, interacting Kalman filters",
-             .max_items = 4});
+                        "g-h-k, the better of both Kalman filters, interacting Kalman filters"});
+    v.field("order", &CompareConfig::order,
+            {.meaning = "names of the filters in the order in which tables and videos show them; "
+                        "those that are left out follow by name",
+             .max_items = 1000});
+  }
+
+  /// The names of all filters, in order.
+  std::vector<std::string> names() const {
+    std::vector<std::string> all = order;
+    for (const auto& [name, filter] : filters) {
+      if (std::find(order.begin(), order.end(), name) == order.end()) all.push_back(name);
+    }
+    return all;
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::string key = "order[" + std::to_string(i) + "]";
+      const auto here = order.begin() + static_cast<std::ptrdiff_t>(i);
+      if (!filters.contains(order[i])) report(key, "no filter under 'filters' has that name");
+      if (std::find(order.begin(), here, order[i]) != here) report(key, "this name is there twice");
+    }
   }
 };
 

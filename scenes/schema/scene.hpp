@@ -31,6 +31,7 @@ struct WorldScene {
   double duration = 20.0;  // [s]
   PhysicsConfig physics;
   EnvironmentConfig environment;
+  RecordConfig record;
   std::vector<Target> targets;
   std::vector<SensorConfig> sensors;
   TrackerConfig tracker;
@@ -54,6 +55,8 @@ struct WorldScene {
             {.unit = "s", .meaning = "length of the run", .above = 0.0, .maximum = 1e6});
     v.field("physics", &WorldScene::physics, {.meaning = "how the world is computed"});
     v.field("world", &WorldScene::environment, {.meaning = "gravity, air, wind and ground"});
+    v.field("record", &WorldScene::record,
+            {.meaning = "what is written of the truth beside its kinematics"});
     v.field("targets", &WorldScene::targets,
             {.meaning = "what moves", .required = true, .min_items = 1, .max_items = 10'000});
     v.field("sensors", &WorldScene::sensors,

@@ -11,6 +11,7 @@
 #include "scenes/schema/key_path.hpp"
 #include "scenes/schema/number_text.hpp"
 #include "scenes/schema/reader.hpp"
+#include "scenes/schema/recording_file.hpp"
 #include "scenes/schema/reference.hpp"
 #include "scenes/schema/scene_check.hpp"
 #include "scenes/schema/value_json.hpp"
@@ -135,6 +136,7 @@ Scene read_scene_text(std::string_view text, const std::string& name,
     if (series->name.empty()) series->name = default_name;
   }
   if (auto* const world = std::get_if<WorldScene>(&file.scene)) {
+    schema::read_recordings(world->targets, std::filesystem::path(name).parent_path());
     name_targets(world->targets);
     name_sensors(world->sensors);
   }

@@ -8,6 +8,7 @@
 
 #include "scenes/schema/video_corner.hpp"
 #include "scenes/schema/video_layer.hpp"
+#include "scenes/schema/video_theme.hpp"
 #include "sim/truth.hpp"
 
 namespace ghtrack {
@@ -77,6 +78,9 @@ struct VideoConfig {
   double from = 0.0;                   // scene time of the first frame [s]
   std::optional<double> to;            // scene time of the last frame; absent: the scene's end [s]
   std::vector<VideoLayer> show{kDefaultVideoLayers.begin(), kDefaultVideoLayers.end()};
+  double trail = 3.0;  // how far back paths, marks and trails reach [s]
+  VideoTheme theme = VideoTheme::kDark;
+  double text = 1.0;  // how much larger letters are than usual
   std::vector<Vec2> region;  // lower left and upper right corner; empty: all that happens [m]
   std::optional<std::string> follow;  // the target that stays in the middle of the picture
   double follow_width = 40.0;         // of the world across the picture when following [m]
@@ -104,6 +108,18 @@ struct VideoConfig {
              .meaning = "scene time of the last frame; without it the scene's end",
              .above = 0.0});
     v.field("show", &VideoConfig::show, {.meaning = "the layers of the picture"});
+    v.field("trail", &VideoConfig::trail,
+            {.unit = "s",
+             .meaning = "how far back true paths, detections and tracks are shown; from the length "
+                        "of the scene on they stay and do not fade",
+             .minimum = 0.0,
+             .maximum = 1e6});
+    v.field("theme", &VideoConfig::theme, {.meaning = "colours: light is for paper"});
+    v.field("text", &VideoConfig::text,
+            {.unit = "1",
+             .meaning = "how much larger letters are than usual; 1.5 suits a large room",
+             .minimum = 0.5,
+             .maximum = 3.0});
     v.field("region", &VideoConfig::region,
             {.unit = "m",
              .meaning = "lower left and upper right corner of what is shown; without it all that "

@@ -41,23 +41,54 @@ BalloonModel::State BalloonModel::start(const Environment&, double) const {
   return state;
 }
 
-double BalloonModel::drag_per_speed(const Environment& environment) const {
-  const double density = environment.air().density;
-  const double area = portable::kPi * balloon_.radius * balloon_.radius;
-  return 0.5 * density * balloon_.drag * area / (mass_ + balloon_.added_mass * density * volume_);
+void BalloonModel::advance(State& state, const Environment& environment, double from, double to,
+                           ImpactLog* log) const {
+  fly_in_wind(*this, state, environment, from, to, log);
+  if (!balloon_.burst_radius || state.is_burst) return;
+  const double ratio = *balloon_.burst_radius / balloon_.radius;
+  if (growth(state, environment) < ratio * ratio * ratio) return;
+  state.is_burst = true;
+  if (log != nullptr) log->push_back({to, -1, state.position, Vec2::Zero(), EventKind::kBurst});
+}
+
+/// Volume / volume at the start.
+double BalloonModel::growth(const FlightState& state, const Environment& environment) const {
+  if (!balloon_.expands) return 1.0;
+  return environment.air_density(balloon_.position.y()) /
+         environment.air_density(state.position.y());
+}
+
+BalloonModel::Form BalloonModel::form(const FlightState& state,
+                                      const Environment& environment) const {
+  const double density = environment.air_density(state.position.y());
+  if (state.is_burst) {
+    const double mass = balloon_.envelope_mass;
+    return {0.0, mass, 0.5 * density * balloon_.fall_drag_area / mass};
+  }
+  double volume = volume_;
+  double area = portable::kPi * balloon_.radius * balloon_.radius;
+  if (balloon_.expands) {
+    const double grown = growth(state, environment);
+    volume *= grown;
+    area *= portable::pow(grown, 2.0 / 3.0);
+  }
+  const double displaced = density * volume;
+  const double inertia = mass_ + balloon_.added_mass * displaced;
+  return {displaced, inertia,
+          0.5 * density * balloon_.drag * area / (mass_ + balloon_.added_mass * density * volume)};
 }
 
 FlightRate BalloonModel::rate(const FlightState& state, const Environment& environment,
                               const SmoothInstant& now) const {
-  const double displaced = environment.air().density * volume_;
-  const double inertia = mass_ + balloon_.added_mass * displaced;
+  const Form form = this->form(state, environment);
+  const double mass = state.is_burst ? balloon_.envelope_mass : mass_;
   const Vec2 air = environment.wind().at(state.position, now.time) - state.velocity;
   FlightRate rate;
-  rate.acceleration = drag_per_speed(environment) * air.norm() * air +
-                      (mass_ - displaced) / inertia * environment.gravity();
+  rate.acceleration = form.drag_per_speed * air.norm() * air +
+                      (mass - form.displaced) / form.inertia * environment.gravity();
   if (balloon_.fluid_acceleration) {
     rate.acceleration +=
-        (1.0 + balloon_.added_mass) * displaced / inertia *
+        (1.0 + balloon_.added_mass) * form.displaced / form.inertia *
         environment.wind().material_derivative(state.position, now.time, now.earliest, now.latest);
   }
   return rate;
@@ -66,7 +97,7 @@ FlightRate BalloonModel::rate(const FlightState& state, const Environment& envir
 double BalloonModel::stiffness(const FlightState& state, const Environment& environment,
                                const SmoothInstant& now) const {
   const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
-  return 2.0 * drag_per_speed(environment) * air.norm();
+  return 2.0 * form(state, environment).drag_per_speed * air.norm();
 }
 
 PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,7 +16,8 @@ class BalloonModel;
 /// coefficient:
 ///   (m + C_a ρ V) dv/dt = ½ ρ C_d π R² |w − v| (w − v) − (ρ V − m) g + [(1 + C_a) ρ V Dw/Dt]
 /// The last term, the pressure field of accelerating air, makes a balloon overshoot a gust
-/// (Batchelor 1967, section 6.8); it is off unless asked for.
+/// (Batchelor 1967, section 6.8); it is off unless asked for. A balloon that expands has the volume
+/// V ρ₀/ρ, where ρ₀ is the air's density at its start; burst, it is its envelope alone.
 struct Balloon {
   static constexpr std::string_view kind = "balloon";
   static constexpr std::string_view about =
@@ -31,6 +33,9 @@ struct Balloon {
   double drag = 0.47;
   double added_mass = 0.5;
   bool fluid_acceleration = false;
+  bool expands = false;
+  std::optional<double> burst_radius;
+  double fall_drag_area = 0.01;
   double restitution = 0.6;
   double friction = 0.4;
   double rolling = 0.0;
@@ -72,6 +77,19 @@ struct Balloon {
              .maximum = 2.0});
     v.field("fluid_acceleration", &Balloon::fluid_acceleration,
             {.meaning = "include the pressure field of accelerating air"});
+    v.field("expands", &Balloon::expands,
+            {.meaning = "grows as the air around it thins: the gas keeps the air's pressure and "
+                        "temperature. Others touch it as it was at the start"});
+    v.field("burst_radius", &Balloon::burst_radius,
+            {.unit = "m",
+             .meaning = "at which it bursts; the envelope falls then. Left out: never",
+             .above = 0.0,
+             .maximum = 100.0});
+    v.field("fall_drag_area", &Balloon::fall_drag_area,
+            {.unit = "m^2",
+             .meaning = "drag coefficient times area of what falls: rags, load and parachute",
+             .minimum = 0.0,
+             .maximum = 1000.0});
     describe_bounce<Balloon>(v);
   }
 
@@ -81,6 +99,13 @@ struct Balloon {
     if (envelope_mass + gas_density * volume < 0.02 * volume) {
       report("envelope_mass",
              "too light for its size: 0.02 kg per cubic metre, gas included, is the least");
+    }
+    if (burst_radius && !expands) report("burst_radius", "only a balloon that `expands` bursts");
+    if (burst_radius && *burst_radius <= radius) {
+      report("burst_radius", "must be greater than `radius`");
+    }
+    if (fall_drag_area > 1000.0 * envelope_mass) {
+      report("fall_drag_area", "must be at most 1000 m^2 per kilogram of envelope");
     }
   }
 };
@@ -94,9 +119,7 @@ class BalloonModel {
 
   State start(const Environment& environment, double time) const;
   void advance(State& state, const Environment& environment, double from, double to,
-               ImpactLog* log) const {
-    fly_in_wind(*this, state, environment, from, to, log);
-  }
+               ImpactLog* log) const;
   int objects() const { return 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                           int object) const;
@@ -111,7 +134,14 @@ class BalloonModel {
                    const SmoothInstant& now) const;
 
  private:
-  double drag_per_speed(const Environment& environment) const;  // k of −k |u| u [1/m]
+  /// What it is at a height.
+  struct Form {
+    double displaced = 0.0;       // mass of the air that it displaces [kg]
+    double inertia = 0.0;         // with the air that moves along [kg]
+    double drag_per_speed = 0.0;  // k of −k |u| u [1/m]
+  };
+  Form form(const FlightState& state, const Environment& environment) const;
+  double growth(const FlightState& state, const Environment& environment) const;
 
   Balloon balloon_;
   double volume_;  // [m³]

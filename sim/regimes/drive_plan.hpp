@@ -71,10 +71,12 @@ struct Coast {
   static void describe(Visitor&) {}
 };
 
-enum class BrakeKind { kService, kEmergency };
+enum class BrakeKind { kService, kEmergency, kLocomotive };
 
-constexpr std::array<std::pair<std::string_view, BrakeKind>, 2> enum_names(BrakeKind) {
-  return {{{"service", BrakeKind::kService}, {"emergency", BrakeKind::kEmergency}}};
+constexpr std::array<std::pair<std::string_view, BrakeKind>, 3> enum_names(BrakeKind) {
+  return {{{"service", BrakeKind::kService},
+           {"emergency", BrakeKind::kEmergency},
+           {"locomotive", BrakeKind::kLocomotive}}};
 }
 
 /// `brake: service`: braked to a stand, and held there.
@@ -84,7 +86,8 @@ struct Brake {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.scalar(&Brake::brake, {.meaning = "to a stand, and hold there"});
+    v.scalar(&Brake::brake, {.meaning = "to a stand, and hold there; locomotive: with the first car's service brake "
+                                    "alone"});
   }
 };
 

@@ -92,7 +92,8 @@ Vec2 DroneModel::wanted_velocity(const FlightState& state, double time) const {
 FlightRate DroneModel::rate(const FlightState& state, const Environment& environment,
                             const SmoothInstant& now) const {
   const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
-  const double k = 0.5 * environment.air().density * drone_.drag_area / drone_.mass;
+  const double k =
+      0.5 * environment.air_density(state.position.y()) * drone_.drag_area / drone_.mass;
   const Vec2 drag = -k * air.norm() * air;
   const Vec2 wanted =
       shortened_to(drone_.acceleration,
@@ -117,7 +118,8 @@ FlightRate DroneModel::rate(const FlightState& state, const Environment& environ
 double DroneModel::stiffness(const FlightState& state, const Environment& environment,
                              const SmoothInstant& now) const {
   const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
-  const double drag = environment.air().density * drone_.drag_area / drone_.mass;
+  const double drag =
+      environment.air_density(state.position.y()) * drone_.drag_area / drone_.mass;
   return drag * air.norm() + 1.0 / kVelocityTime +
          drone_.attitude_rate * (1.0 + drone_.attitude_damping);
 }

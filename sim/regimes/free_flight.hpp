@@ -23,6 +23,7 @@ struct FlightState {
   int second_support = -1;       // another one, as in a corner
   bool leans = false;            // on other bodies, which accelerate it together with all else by
   Vec2 leaning_acceleration = Vec2::Zero();  // [m/s²]
+  bool is_burst = false;                     // of a balloon
 };
 
 /// What the forces of flight make of a state.

@@ -31,12 +31,14 @@ struct ContactProperties {
   double friction = 0.0;
 };
 
-/// What struck a surface of the surroundings.
+/// What struck a surface of the surroundings, or what else has happened to an object by itself.
 struct Impact {
   double time = 0.0;              // [s]
-  int surface = 0;                // index of the environment's surface
+  int surface = 0;                // index of the environment's surface; −1: none
   Vec2 position = Vec2::Zero();   // of the body's centre [m]
   Vec2 impulse = Vec2::Zero();    // that the body received [N s]
+  EventKind kind = EventKind::kContact;
+  int object = 0;                 // of the target's, where it has several
 };
 using ImpactLog = std::vector<Impact>;
 
@@ -66,7 +68,8 @@ concept IsMotionModel = std::copyable<typename M::State> &&
 /// What a regime of motion must be: a described configuration with a name and a model.
 ///   position       where it begins [m]
 ///   shift(by)      moves it and all that it will do to another place
-///   hasten(by)     changes the velocity with which it begins [m/s]
+///   hasten(by)     changes the velocity with which it begins [m/s], as far as its track, route or
+///                  rod lets it: by the part along it
 ///   unreleasable() why nothing can let go of it on the way; empty: something can
 /// One whose motion is random by a known law may offer that, too: see motion_law.hpp.
 template <class R>

@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kDegree = portable::kPi / 180.0;
 
-/// Mean of the direction of travel over a length whose heading is a quadratic of the arc length:
-/// that of the chord of an arc, else Gauss–Legendre with five points on parts that turn by less
-/// than half a radian.
+}  // namespace
+
+// That of the chord of an arc, else Gauss–Legendre with five points on parts that turn by less than
+// half a radian.
 Vec2 mean_direction(double heading, double curvature, double curvature_rate, double length) {
   constexpr std::array<double, 5> kNodes{-0.9061798459386640, -0.5384693101056831, 0.0,
                                          0.5384693101056831, 0.9061798459386640};
@@ -41,8 +42,6 @@ Vec2 mean_direction(double heading, double curvature, double curvature_rate, dou
   }
   return 0.5 * sum / parts;
 }
-
-}  // namespace
 
 RailLine::RailLine(const std::vector<TrackElement>& elements, const Vec2& origin, double heading) {
   pieces_.push_back({0.0, 0.0, {origin, heading, 0.0}, 0.0});

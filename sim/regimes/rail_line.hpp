@@ -104,6 +104,11 @@ struct TrackPoint {
   double curvature = 0.0;        // positive to the left [1/m]
 };
 
+/// Mean of the direction of travel over a length whose heading is a quadratic of the arc length:
+/// along a straight, an arc or a clothoid.
+/// @param heading, curvature  at its beginning [rad, 1/m]
+Vec2 mean_direction(double heading, double curvature, double curvature_rate, double length);
+
 /// A line of straights, arcs and clothoids, by arc length; straight before and after its ends.
 class RailLine {
  public:

@@ -1,5 +1,7 @@
 #include "sim/regimes/regime.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <type_traits>
 
 namespace ghtrack {
@@ -21,6 +23,18 @@ std::vector<std::string> regime_kinds() {
   return []<class... R>(std::type_identity<std::variant<R...>>) {
     return std::vector<std::string>{std::string(R::kind)...};
   }(std::type_identity<Regime>{});
+}
+
+std::vector<std::string> detectable_classes(const std::vector<ObjectInfo>& objects) {
+  constexpr std::size_t kAlways = 4;
+  std::vector<std::string> classes;
+  for (const std::string& kind : regime_kinds()) {
+    const bool is_there =
+        std::any_of(objects.begin(), objects.end(),
+                    [&](const ObjectInfo& object) { return object.regime == kind; });
+    if (classes.size() < kAlways || is_there) classes.push_back(kind);
+  }
+  return classes;
 }
 
 }  // namespace ghtrack

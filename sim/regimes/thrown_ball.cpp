@@ -102,6 +102,7 @@ std::optional<MotionLaw> ThrownBall::law(const EnvironmentConfig& environment) c
   if (juggle || !is_empty) return std::nullopt;
   MotionLaw law = drifting();
   law.holds_alone = true;
+  law.takes_any_start = true;
   return law;
 }
 
@@ -123,10 +124,10 @@ BallModel::State BallModel::start(const Environment& environment, double time) c
   return state;
 }
 
-double BallModel::drag_coefficient(const Air& air, double speed) const {
+double BallModel::drag_coefficient(double density, double viscosity, double speed) const {
   if (!ball_.drag_crisis) return ball_.drag;
   const DragCrisis& crisis = *ball_.drag_crisis;
-  const double reynolds = air.density * 2.0 * ball_.radius * speed / air.viscosity;
+  const double reynolds = density * 2.0 * ball_.radius * speed / viscosity;
   const double beyond = (reynolds - crisis.from) / (crisis.to - crisis.from);
   return ball_.drag + (crisis.drag - ball_.drag) * std::clamp(beyond, 0.0, 1.0);
 }
@@ -136,13 +137,21 @@ FlightRate BallModel::rate(const FlightState& state, const Environment& environm
   FlightRate rate{environment.gravity(), 0.0};
   const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
   const double speed = air.norm();
-  const double k = environment.air().density * area_to_mass_;
-  rate.acceleration -= k * drag_coefficient(environment.air(), speed) * speed * air;
+  const double density = environment.air_density(state.position.y());
+  const double k = density * area_to_mass_;
+  rate.acceleration -=
+      k * drag_coefficient(density, environment.air().viscosity, speed) * speed * air;
   if (state.spin != 0.0 && speed > 0.0) {
     const double s = ball_.radius * std::abs(state.spin) / speed;
     const double lift = std::copysign(lift_coefficient(ball_.lift, s), state.spin);
     rate.acceleration += k * lift * speed * Vec2(-air.y(), air.x());
     if (ball_.spin_decay > 0.0) rate.spin = -state.spin * speed / (ball_.spin_decay * kDecaySpeed);
+  }
+  if (ball_.buoyancy) {
+    // What it displaces lifts it, and half as much moves along (Batchelor 1967, section 6.8).
+    const double displaced = density * volume();
+    rate.acceleration = (ball_.mass * rate.acceleration - displaced * environment.gravity()) /
+                        (ball_.mass + 0.5 * displaced);
   }
   return rate;
 }
@@ -151,8 +160,9 @@ double BallModel::stiffness(const FlightState& state, const Environment& environ
                             const SmoothInstant& now) const {
   const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
   const double speed = air.norm();
-  const double k = environment.air().density * area_to_mass_;
-  double coefficients = 2.0 * drag_coefficient(environment.air(), speed);
+  const double density = environment.air_density(state.position.y());
+  const double k = density * area_to_mass_;
+  double coefficients = 2.0 * drag_coefficient(density, environment.air().viscosity, speed);
   if (state.spin != 0.0 && ball_.lift != LiftModel::kNone) coefficients += kLargestLift;
   double rate = k * coefficients * speed;
   if (ball_.spin_decay > 0.0) rate += speed / (ball_.spin_decay * kDecaySpeed);
@@ -212,9 +222,16 @@ ContactProperties BallModel::contact() const {
           ball_.friction};
 }
 
-RoundBody BallModel::round(const Environment&) const {
-  return {ball_.radius,   ball_.inertia, ball_.restitution,
-          ball_.friction, ball_.rolling, ball_.mass};
+double BallModel::volume() const {
+  return 4.0 / 3.0 * portable::kPi * ball_.radius * ball_.radius * ball_.radius;
+}
+
+RoundBody BallModel::round(const Environment& environment) const {
+  // A push moves the air around a light ball too, which does not turn with it.
+  const double moved =
+      ball_.buoyancy ? ball_.mass + 0.5 * environment.air().density * volume() : ball_.mass;
+  const double inertia = ball_.buoyancy ? ball_.inertia * ball_.mass / moved : ball_.inertia;
+  return {ball_.radius, inertia, ball_.restitution, ball_.friction, ball_.rolling, moved};
 }
 
 }  // namespace ghtrack

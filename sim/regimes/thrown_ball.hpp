@@ -83,6 +83,7 @@ struct ThrownBall {
   double restitution = 0.55;
   double friction = 0.4;
   double rolling = 0.0;
+  bool buoyancy = false;
   std::optional<Juggling> juggle;
 
   static std::span<const ThrownBall> presets();
@@ -156,6 +157,9 @@ struct ThrownBall {
              .above = 0.0,
              .maximum = 1.0});
     describe_bounce<ThrownBall>(v);
+    v.field("buoyancy", &ThrownBall::buoyancy,
+            {.meaning = "the air lifts it by what it displaces, and half as much air moves along: for "
+                        "light balls, such as beach balls"});
     v.field("juggle", &ThrownBall::juggle,
             {.meaning = "the hands of a juggler, instead of a velocity; left out: thrown once"});
   }
@@ -211,7 +215,8 @@ class BallModel {
 
  private:
   void begin_next_phase(State& state, const JugglingPattern& pattern) const;
-  double drag_coefficient(const Air& air, double speed) const;
+  double drag_coefficient(double density, double viscosity, double speed) const;
+  double volume() const;  // [m³]
 
   ThrownBall ball_;
   double spin_;          // with which it is thrown [rad/s]

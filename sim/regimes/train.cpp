@@ -40,18 +40,37 @@ TrainModel::TrainModel(const Train& train)
   for (std::size_t i = 1; i < masses_.size(); ++i) {
     masses_[i] = (train.mass - leading) / (train.cars - 1);
   }
+  for (const CarsAhead& group : train.ahead) {
+    const std::size_t first = masses_.size();
+    masses_.insert(masses_.end(), static_cast<std::size_t>(group.cars), group.mass);
+    meetings_.push_back({front_, masses_.size() - 1, group.couples});
+    front_ = first;
+  }
   // A quarter of the Runge-Kutta method's range of stability for the fastest spring and damper.
   const double lightest = *std::min_element(masses_.begin(), masses_.end()) * train.rotating_mass;
   longest_step_ = std::min(0.35 / std::sqrt(4.0 * train.couplers->stiffness / lightest),
                            0.35 / (4.0 * train.couplers->damping / lightest + 1e-9));
+  if (!train.buffer_stop) return;
+  longest_step_ = std::min({longest_step_,
+                            0.35 / std::sqrt(2.0 * train.buffer_stop->stiffness / lightest),
+                            0.35 / (2.0 * train.buffer_stop->damping / lightest + 1e-9)});
 }
 
 TrainModel::State TrainModel::start(const Environment&, double) const {
   State state;
-  for (std::size_t i = 0; i < masses_.size(); ++i) {
+  const std::size_t units = train_.couplers ? static_cast<std::size_t>(train_.cars) : 1;
+  for (std::size_t i = 0; i < units; ++i) {
     state.place.push_back(train_.start - static_cast<double>(i) * train_.car_length);
     state.speed.push_back(train_.speed);
   }
+  if (!train_.couplers) return state;
+  for (const CarsAhead& group : train_.ahead) {
+    for (int i = group.cars - 1; i >= 0; --i) {
+      state.place.push_back(group.start + i * train_.car_length);
+      state.speed.push_back(group.speed);
+    }
+  }
+  state.joined.assign(meetings_.size(), false);
   return state;
 }
 
@@ -90,7 +109,17 @@ double TrainModel::next_kink(const State& state, double time) const {
   if (state.phase >= 0) {
     const DriveCommand& command = train_.drive[static_cast<std::size_t>(state.phase)].command;
     if (const auto* force = std::get_if<Force>(&command)) built_up = force->ramp;
-    if (const auto* brake = std::get_if<Brake>(&command)) built_up = build_up(*brake);
+    if (const auto* brake = std::get_if<Brake>(&command)) {
+      built_up = build_up(*brake);
+      if (train_.brake_pipe_speed && brake->brake != BrakeKind::kLocomotive) {
+        for (int car = 1; car < train_.cars; ++car) {
+          const double begins = state.phase_began + car * train_.car_length / *train_.brake_pipe_speed;
+          for (const double bend : {begins, begins + built_up}) {
+            if (bend > time) kink = std::min(kink, bend);
+          }
+        }
+      }
+    }
   }
   if (state.phase_began + built_up > time) kink = std::min(kink, state.phase_began + built_up);
   return kink;
@@ -105,8 +134,8 @@ double TrainModel::longest_step(const State& state) const {
 }
 
 double TrainModel::build_up(const Brake& brake) const {
-  return brake.brake == BrakeKind::kService ? train_.service_brake_build_up
-                                            : train_.emergency_brake_build_up;
+  return brake.brake == BrakeKind::kEmergency ? train_.emergency_brake_build_up
+                                              : train_.service_brake_build_up;
 }
 
 double TrainModel::traction_limit(double speed) const {
@@ -138,8 +167,11 @@ TrainModel::Effort TrainModel::effort(const State& state, double time) const {
   }
   if (const auto* brake = std::get_if<Brake>(&command)) {
     const double full =
-        brake->brake == BrakeKind::kService ? train_.service_brake : train_.emergency_brake;
-    return {.braking = full * since(build_up(*brake))};
+        brake->brake == BrakeKind::kEmergency ? train_.emergency_brake : train_.service_brake;
+    const bool alone = brake->brake == BrakeKind::kLocomotive;
+    return {.braking = full * since(build_up(*brake)),
+            .by_first_alone = alone,
+            .piped = train_.brake_pipe_speed && !alone ? full : 0.0};
   }
   if (const auto* target = std::get_if<TargetSpeed>(&command)) return towards(target->speed);
   if (const auto* stop = std::get_if<StationStop>(&command)) {
@@ -188,10 +220,54 @@ TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, do
   return {.force = std::clamp(needed, -limit, limit)};
 }
 
+/// The most that the speed limits leave to the driver [m/s²]. On the way to a limit v₁ he keeps to
+/// the parabola v² = v₁² + 2 b s on which he brakes with b.
+double TrainModel::highest_acceleration(double place, double speed) const {
+  const double braking = kStationBraking * train_.service_brake;
+  double highest = kNever;
+  for (const SpeedLimit& limit : train_.speed_limits) {
+    const double left = limit.from - place;
+    if (place > limit.to + (train_.cars - 1) * train_.car_length) continue;
+    const bool is_ahead = left > 0.0;
+    const double allowed =
+        is_ahead ? std::sqrt(limit.speed * limit.speed + 2.0 * braking * left) : limit.speed;
+    const double along = is_ahead ? -braking * speed / std::max(allowed, 1e-9) : 0.0;
+    highest = std::min(highest, along + (allowed - speed) / kDriverTime);
+  }
+  return highest;
+}
+
+/// The deceleration by the brakes of one unit. Those of a rigid train are the mean of its cars'.
+double TrainModel::braking_of(const Effort& now, const State& state, double time,
+                              std::size_t unit) const {
+  const bool is_rigid = masses_.size() == 1;
+  if (!is_rigid && unit >= static_cast<std::size_t>(train_.cars)) return 0.0;  // ahead: no brakes
+  if (now.by_first_alone) {
+    if (!is_rigid) return unit == 0 ? now.braking : 0.0;
+    return now.braking * train_.leading_mass.value_or(train_.mass / train_.cars) / train_.mass;
+  }
+  if (now.piped == 0.0) return now.braking;
+  const auto& brake =
+      std::get<Brake>(train_.drive[static_cast<std::size_t>(state.phase)].command);
+  const double rise = build_up(brake);
+  const auto of_car = [&](std::size_t car) {
+    const double delay = static_cast<double>(car) * train_.car_length / *train_.brake_pipe_speed;
+    const double since = time - state.phase_began - delay;
+    if (since < 0.0) return 0.0;
+    return now.piped * (rise > 0.0 ? std::min(since / rise, 1.0) : 1.0);
+  };
+  if (!is_rigid) return of_car(unit);
+  double sum = 0.0;
+  for (int car = 0; car < train_.cars; ++car) sum += of_car(static_cast<std::size_t>(car));
+  return sum / train_.cars;
+}
+
 std::vector<double> TrainModel::accelerations(const State& state, double time,
                                               const std::vector<double>& directions) const {
   const std::size_t units = masses_.size();
-  if (state.phase < 0) return std::vector<double>(units, 0.0);
+  if (state.phase < 0 && meetings_.empty() && !train_.buffer_stop) {
+    return std::vector<double>(units, 0.0);
+  }
   std::vector<double> active(units, 0.0);
   std::vector<double> passive(units, 0.0);
   for (std::size_t i = 0; i < units; ++i) {
@@ -207,7 +283,16 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
   }
 
   const std::vector<double> slope = active;
-  Effort now = effort(state, time);
+  Effort now = state.phase < 0 ? Effort{} : effort(state, time);
+  if (!train_.speed_limits.empty() && state.speed[0] > 0.0) {
+    const double highest = highest_acceleration(state.place[0], state.speed[0]);
+    const double active_sum = std::accumulate(active.begin(), active.end(), 0.0);
+    const double passive_sum = std::accumulate(passive.begin(), passive.end(), 0.0);
+    const double meant = now.acceleration.value_or(
+        (now.force + active_sum - passive_sum) / (train_.mass * train_.rotating_mass) -
+        now.braking);
+    if (meant > highest) now = {.acceleration = highest};
+  }
   if (now.acceleration) {
     const double active_sum = std::accumulate(active.begin(), active.end(), 0.0);
     const double passive_sum = std::accumulate(passive.begin(), passive.end(), 0.0);
@@ -217,9 +302,10 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
       now = effort_for(now, state.speed[0], active_sum, passive_sum);
     }
   }
-  now.braking = std::min(now.braking, braking_limit(train_, state.speed[0]));
+  const double most_braking = braking_limit(train_, state.speed[0]);
   active[0] += now.force;
   if (train_.couplers) add_coupler_forces(state, active);
+  add_forces_ahead(state, active);
 
   std::vector<double> result(units);
   for (std::size_t i = 0; i < units; ++i) {
@@ -227,7 +313,8 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
     // Brakes that hold give way to the driver, not to the slope.
     const bool stands = directions[i] == 0.0;
     if (train_.holding_brake && stands && active[i] * (active[i] - slope[i]) <= 0.0) continue;
-    result[i] = hindered(active[i], passive[i] + now.braking * inertia, directions[i], inertia);
+    const double braking = std::min(braking_of(now, state, time, i), most_braking);
+    result[i] = hindered(active[i], passive[i] + braking * inertia, directions[i], inertia);
   }
   return result;
 }
@@ -241,6 +328,12 @@ std::vector<double> TrainModel::directions_of(const State& state) {
 void TrainModel::add_coupler_forces(const State& state, std::vector<double>& forces) const {
   const Couplers& couplers = *train_.couplers;
   for (std::size_t i = 0; i + 1 < forces.size(); ++i) {
+    const bool begins_group =
+        i + 1 >= static_cast<std::size_t>(train_.cars) &&
+        (i + 1 == static_cast<std::size_t>(train_.cars) ||
+         std::any_of(meetings_.begin(), meetings_.end(),
+                     [i](const Meeting& meeting) { return meeting.ahead == i; }));
+    if (begins_group) continue;
     const double stretch = state.place[i] - state.place[i + 1] - train_.car_length;
     const double beyond = std::abs(stretch) - couplers.slack;
     if (beyond <= 0.0) continue;
@@ -248,6 +341,54 @@ void TrainModel::add_coupler_forces(const State& state, std::vector<double>& for
                         couplers.damping * (state.speed[i] - state.speed[i + 1]);
     forces[i] -= pull;
     forces[i + 1] += pull;
+  }
+}
+
+double TrainModel::gap(const State& state, const Meeting& meeting) const {
+  return state.place[meeting.ahead] - state.place[meeting.behind] - train_.car_length;
+}
+
+/// Of buffers between groups, of couplings that have come about there, and of the track's end.
+void TrainModel::add_forces_ahead(const State& state, std::vector<double>& forces) const {
+  for (std::size_t i = 0; i < meetings_.size(); ++i) {
+    const Couplers& couplers = *train_.couplers;
+    const Meeting& meeting = meetings_[i];
+    const double stretch = gap(state, meeting);
+    const double parting = state.speed[meeting.ahead] - state.speed[meeting.behind];
+    double pull = 0.0;
+    if (state.joined[i]) {
+      const double beyond = std::abs(stretch) - couplers.slack;
+      if (beyond > 0.0) {
+        pull = couplers.stiffness * std::copysign(beyond, stretch) + couplers.damping * parting;
+      }
+    } else if (stretch < 0.0) {
+      pull = std::min(0.0, couplers.stiffness * stretch + couplers.damping * parting);
+    }
+    forces[meeting.ahead] -= pull;
+    forces[meeting.behind] += pull;
+  }
+  if (!train_.buffer_stop) return;
+  const BufferStop& stop = *train_.buffer_stop;
+  const double way = pressed(state);
+  if (way <= 0.0) return;
+  forces[front_] -= std::max(0.0, stop.stiffness * way + stop.damping * state.speed[front_]);
+}
+
+/// How far the foremost car has pressed in the buffer stop; negative: it is not there yet [m].
+double TrainModel::pressed(const State& state) const {
+  return state.place[front_] + 0.5 * train_.car_length - train_.buffer_stop->place;
+}
+
+/// Couples groups that have touched.
+void TrainModel::join(State& state, double time, ImpactLog* log) const {
+  for (std::size_t i = 0; i < meetings_.size(); ++i) {
+    const Meeting& meeting = meetings_[i];
+    if (state.joined[i] || !meeting.couples || gap(state, meeting) > 0.0) continue;
+    state.joined[i] = true;
+    if (log == nullptr) continue;
+    const int object = train_.track_every_car ? static_cast<int>(meeting.behind) : 0;
+    log->push_back({time, -1, track_.at(state.place[meeting.behind]).position, Vec2::Zero(),
+                    EventKind::kCoupling, object});
   }
 }
 
@@ -281,16 +422,22 @@ TrainModel::State TrainModel::moved(const State& state, double time, double step
 }
 
 void TrainModel::advance(State& state, const Environment&, double from, double to,
-                         ImpactLog*) const {
+                         ImpactLog* log) const {
   double time = from;
   while (time < to) {
+    join(state, time, log);
     decide(state, time);
     const double end = std::min({to, next_kink(state, time), time + longest_step(state)});
     State next = moved(state, time, end - time);
-    // Where a car comes to a stand, or the first reaches the place of the next phase, the
-    // equations change: the step ends there.
+    // Where a car comes to a stand, the first reaches the place of the next phase, or buffers
+    // touch or part, the equations change: the step ends there.
     double step = end - time;
     const auto event = [&](const State& s) {
+      for (std::size_t i = 0; i < meetings_.size(); ++i) {
+        if (state.joined[i]) continue;
+        if ((gap(state, meetings_[i]) > 0.0) != (gap(s, meetings_[i]) > 0.0)) return true;
+      }
+      if (train_.buffer_stop && (pressed(state) > 0.0) != (pressed(s) > 0.0)) return true;
       return reached_next_phase(s) || (s.speed[0] * state.speed[0] < 0.0 && masses_.size() == 1);
     };
     if (event(next)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -103,6 +104,91 @@ struct Couplers {
   }
 };
 
+/// A limit of speed between two places of the track.
+struct SpeedLimit {
+  static constexpr std::string_view about =
+      "a limit that the driver keeps from the place where the first car reaches it until the last "
+      "has left it, braking in time";
+  double from = 0.0;
+  double to = 0.0;
+  double speed = 0.0;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("from", &SpeedLimit::from,
+            {.unit = "m",
+             .meaning = "place on the track",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("to", &SpeedLimit::to,
+            {.unit = "m",
+             .meaning = "place on the track",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("speed", &SpeedLimit::speed,
+            {.unit = "m/s", .meaning = "at most", .required = true, .above = 0.0, .maximum = 150.0});
+  }
+
+  template <class Report>
+  void check(Report&& report) const {
+    if (!(to > from)) report("to", "must be greater than `from`");
+  }
+};
+
+/// Cars that stand or roll on the same track ahead of the train, without an engine or brakes.
+struct CarsAhead {
+  static constexpr std::string_view about =
+      "cars on the same track ahead of the train, without an engine or brakes: what comes up pushes "
+      "them";
+  double start = 0.0;
+  int cars = 1;
+  double mass = 20e3;
+  double speed = 0.0;
+  bool couples = true;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("start", &CarsAhead::start,
+            {.unit = "m",
+             .meaning = "place of their last car's centre on the track at the start",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("cars", &CarsAhead::cars,
+            {.unit = "1", .meaning = "number of cars", .minimum = 1.0, .maximum = 100.0});
+    v.field("mass", &CarsAhead::mass,
+            {.unit = "kg", .meaning = "of one car", .minimum = 100.0, .maximum = 1e7});
+    v.field("speed", &CarsAhead::speed,
+            {.unit = "m/s", .meaning = "at the start", .minimum = -50.0, .maximum = 50.0});
+    v.field("couples", &CarsAhead::couples,
+            {.meaning = "couple to what comes up behind them; otherwise they only buffer"});
+  }
+};
+
+/// The end of a track.
+struct BufferStop {
+  static constexpr std::string_view about = "the end of the track: a buffer that pushes back";
+  double place = 0.0;
+  double stiffness = 5e6;
+  double damping = 1e6;
+
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.field("place", &BufferStop::place,
+            {.unit = "m",
+             .meaning = "on the track, where the front of the foremost car touches it",
+             .required = true,
+             .minimum = -1e6,
+             .maximum = 1e6});
+    v.field("stiffness", &BufferStop::stiffness,
+            {.unit = "N/m", .meaning = "of its spring", .minimum = 1e4, .maximum = 1e9});
+    v.field("damping", &BufferStop::damping,
+            {.unit = "N s/m", .meaning = "while it is pressed in", .minimum = 0.0, .maximum = 1e8});
+  }
+};
+
 class TrainModel;
 
 /// A train on a track: Davis resistance, grades and curves, traction limited by force, power and
@@ -144,6 +230,10 @@ struct Train {
   std::optional<Couplers> couplers;
   std::vector<Grade> grades;
   std::vector<SchematicCurve> schematic_curves;
+  std::optional<double> brake_pipe_speed;
+  std::vector<SpeedLimit> speed_limits;
+  std::vector<CarsAhead> ahead;
+  std::optional<BufferStop> buffer_stop;
 
   static std::span<const Train> presets();
 
@@ -173,7 +263,8 @@ struct Train {
              .maximum = 1e6});
     v.field("speed", &Train::speed,
             {.unit = "m/s",
-             .meaning = "at the start, kept exactly until the first drive phase",
+             .meaning = "at the start, kept exactly until the first drive phase; with cars `ahead` or "
+                        "a buffer stop it coasts until then",
              .minimum = -150.0,
              .maximum = 150.0});
     v.field("drive", &Train::drive,
@@ -241,6 +332,20 @@ struct Train {
     v.field("grades", &Train::grades, {.meaning = "gradients by place", .max_items = 10000});
     v.field("schematic_curves", &Train::schematic_curves,
             {.meaning = "curve resistance where the track is drawn straight", .max_items = 10000});
+    v.field("brake_pipe_speed", &Train::brake_pipe_speed,
+            {.unit = "m/s",
+             .meaning = "at which the driver's brake reaches one car after the other: about 250 for "
+                        "air; left out: all brake at once",
+             .minimum = 10.0,
+             .maximum = 1e4});
+    v.field("speed_limits", &Train::speed_limits,
+            {.meaning = "limits by place", .max_items = 1000});
+    v.field("ahead", &Train::ahead,
+            {.meaning = "cars on the same track ahead, the nearest first; needs `couplers`. They are "
+                        "objects with track_every_car",
+             .max_items = 20});
+    v.field("buffer_stop", &Train::buffer_stop,
+            {.meaning = "where the track ends; needs `couplers`"});
   }
 
   template <class Report>
@@ -256,8 +361,27 @@ struct Train {
       report("davis_c", "the resistance would stop this mass within a fraction of a second");
     }
     const double heaviest = leading_mass.value_or(0.0);
-    const double lightest =
+    double lightest =
         cars > 1 ? std::min(leading_mass.value_or(mass), (mass - heaviest) / cars) : mass;
+    double last = start;
+    for (std::size_t i = 0; i < ahead.size(); ++i) {
+      lightest = std::min(lightest, ahead[i].mass);
+      const std::string key = "ahead[" + std::to_string(i) + "].start";
+      if (ahead[i].start - last < car_length) report(key, "overlaps the cars behind");
+      last = ahead[i].start + (ahead[i].cars - 1) * car_length;
+    }
+    if (brake_pipe_speed && !(service_brake_build_up > 0.0 && emergency_brake_build_up > 0.0)) {
+      report("brake_pipe_speed", "needs brakes that build up in more than 0 s");
+    }
+    if (!couplers && !ahead.empty()) report("ahead", "needs `couplers`, by which cars push");
+    if (!couplers && buffer_stop) report("buffer_stop", "needs `couplers`, by which cars push");
+    if (buffer_stop && buffer_stop->place - last < 0.5 * car_length) {
+      report("buffer_stop.place", "lies behind the front of the foremost car");
+    }
+    if (buffer_stop &&
+        !(4.0 * std::max(buffer_stop->stiffness / 1e3, buffer_stop->damping) <= 1e3 * lightest)) {
+      report("buffer_stop", "too stiff or too strongly damped for cars as light as these");
+    }
     if (couplers &&
         !(4.0 * std::max(couplers->stiffness / 1e3, couplers->damping) <= 1e3 * lightest)) {
       report("couplers", "too stiff or too strongly damped for cars as light as these");
@@ -265,16 +389,18 @@ struct Train {
   }
 };
 
-/// The longitudinal motion of one train and its place on the track.
+/// The longitudinal motion of one train, and of what it meets on its track.
 class TrainModel {
  public:
-  /// Along the track, per car that moves by itself: one if the couplers are rigid.
+  /// Along the track, per car that moves by itself: one if the couplers are rigid; then the cars of
+  /// the groups ahead, the foremost of each first.
   struct State {
     std::vector<double> place;  // arc length of the centres, first car first [m]
     std::vector<double> speed;  // [m/s]
     int phase = -1;             // index of the drive phase; −1: before the first
     double phase_began = 0.0;   // [s]
     bool stopping = false;      // the driver has begun to brake for a station
+    std::vector<bool> joined;   // of each place where groups of cars meet: they are coupled
   };
 
   explicit TrainModel(const Train& train);
@@ -282,18 +408,30 @@ class TrainModel {
   State start(const Environment& environment, double time) const;
   void advance(State& state, const Environment& environment, double from, double to,
                ImpactLog* log) const;
-  int objects() const { return train_.track_every_car ? train_.cars : 1; }
+  int objects() const { return train_.track_every_car ? bodies() : 1; }
   PlanarMotion kinematics(const State& state, const Environment& environment, double time,
                           int object) const;
-  int bodies() const { return train_.cars; }
+  int bodies() const {
+    int count = train_.cars;
+    for (const CarsAhead& group : train_.ahead) count += group.cars;
+    return count;
+  }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
 
  private:
+  /// Where the last car of a group ahead meets what comes up behind it.
+  struct Meeting {
+    std::size_t behind;  // units
+    std::size_t ahead;
+    bool couples;
+  };
   struct Effort {                                       // what the driver demands of the train
     double force = 0.0;                                 // traction [N]
     double braking = 0.0;                               // deceleration by the brakes [m/s²]
     std::optional<double> acceleration = std::nullopt;  // to be brought about by either [m/s²]
+    bool by_first_alone = false;                        // brakes of the first car alone
+    double piped = 0.0;  // of the braking, that runs through the pipe: what it will be [m/s²]
   };
 
   const DrivePhase* next_phase(const State& state) const;
@@ -305,9 +443,15 @@ class TrainModel {
   double traction_limit(double speed) const;
   Effort effort(const State& state, double time) const;
   Effort effort_for(const Effort& wanted, double speed, double active, double passive) const;
+  double highest_acceleration(double place, double speed) const;
+  double braking_of(const Effort& now, const State& state, double time, std::size_t unit) const;
   double slope_force(double place, double mass) const;
   double curve_drag(double place, double mass) const;
   void add_coupler_forces(const State& state, std::vector<double>& forces) const;
+  void add_forces_ahead(const State& state, std::vector<double>& forces) const;
+  double gap(const State& state, const Meeting& meeting) const;
+  double pressed(const State& state) const;
+  void join(State& state, double time, ImpactLog* log) const;
   std::vector<double> accelerations(const State& state, double time,
                                     const std::vector<double>& directions) const;
   static std::vector<double> directions_of(const State& state);
@@ -317,6 +461,8 @@ class TrainModel {
 
   Train train_;
   RailLine track_;
+  std::vector<Meeting> meetings_;
+  std::size_t front_ = 0;       // the foremost unit
   std::vector<double> masses_;  // of what moves by itself: the train, or each sprung car [kg]
   double longest_step_ = std::numeric_limits<double>::infinity();  // that the couplers allow [s]
 };

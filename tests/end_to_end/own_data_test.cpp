@@ -134,6 +134,27 @@ TEST(OwnData, TracksWhatNobodyHasDescribed) {
 }
 
 // Property: where nothing goes on, that is said, and what to set; and where times have been cut to
+// Property: what options say of the sensor and of the life of tracks, a configuration can say.
+TEST(OwnData, IsDescribedByOptionsOrByAFile) {
+  const TemporaryFolder folder;
+  std::string rows = "t,x,y\n";
+  for (int i = 0; i < 40; ++i) {
+    rows += std::to_string(i) + "," + std::to_string(3 * i + i % 3) + "," + std::to_string(i % 2) + "\n";
+  }
+  write(folder.path() / "in.csv", rows);
+  write(folder.path() / "tracker.yaml",
+        "noise: 0.7\ndetection_probability: 0.9\nclutter: 0.01\ntracker: {life_cycle: counts}\n");
+  const Outcome by_file = shell("ghtrack track in.csv --config tracker.yaml", folder.path());
+  const Outcome by_options = shell(
+      "ghtrack track in.csv --noise 0.7 --pd 0.9 --clutter 0.01 --life-cycle counts", folder.path());
+  ASSERT_EQ(by_file.exit_code, 0) << by_file.err;
+  EXPECT_EQ(by_options.out, by_file.out);
+  EXPECT_EQ(by_options.err, by_file.err);
+  for (const std::string wrong : {"--pd 0", "--noise -1", "--clutter x", "--life-cycle cats"}) {
+    EXPECT_EQ(shell("ghtrack track in.csv " + wrong, folder.path()).exit_code, 2) << wrong;
+  }
+}
+
 // whole seconds, that.
 TEST(OwnData, SaysWhatIsMissing) {
   const TemporaryFolder folder;

@@ -159,6 +159,22 @@ TEST(Video, ComesInThemes) {
   EXPECT_EQ(shell(scene + "--trail long", folder.path()).exit_code, 2);
 }
 
+// Property: what options say of colours, letters, trails and layers, a scene can say.
+TEST(Video, LooksAsItsSceneSays) {
+  const TemporaryFolder folder;
+  const std::string options = "--from 1 --to 1.1 --size 640x360";
+  const auto by_option = video(folder, "three_regimes.yaml", "option.png",
+                               options + " --theme light --trail whole --text 1.3 --show smoothed");
+  const auto by_scene =
+      video(folder, "three_regimes.yaml", "scene.png",
+            options + " --set video.theme=light --set video.trail=1000 --set video.text=1.3 --show "
+                      "smoothed");
+  EXPECT_TRUE(contents(by_option) == contents(by_scene));
+  const auto without = video(folder, "three_regimes.yaml", "without.png",
+                             options + " --theme light --trail whole --text 1.3");
+  EXPECT_FALSE(contents(by_option) == contents(without));
+}
+
 // Property: the same scene gives the same bytes in mp4 and avi, and the same images in webm.
 TEST(Video, RepeatsItselfInEveryFormat) {
   const TemporaryFolder folder;

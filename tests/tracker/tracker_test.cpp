@@ -19,6 +19,7 @@ constexpr double kPeriod = 0.1;
 /// A tracker that counts hits and misses.
 TrackerDesign design(TrackerConfig config = {}, SensorTraits sensor = {}) {
   config.life_cycle = LifeCycle::kCounts;
+  if (config.filters.empty()) config.filters["default"] = GhConfig{};
   sensor.period = kPeriod;
   sensor.sigma = kSigma;
   return {std::move(config), {sensor}};

@@ -31,6 +31,7 @@ WorldScene three_regimes(int runs) {
   const std::string file = std::string(GHTRACK_SOURCE_DIR) + "/scenes/three_regimes.yaml";
   WorldScene scene = std::get<WorldScene>(read_scene(file));
   scene.compare.filters.clear();
+  scene.compare.order.clear();
   scene.compare.runs = runs;
   return scene;
 }

@@ -25,6 +25,22 @@ constexpr double kSpeed = 2.0;            // 1-sigma velocity per axis [m/s]
 constexpr double kSeen = 0.95;            // detection probability
 constexpr double kTargetsPerArea = 2e-4;  // as in set A with 200 targets [1/m²]
 
+/// Tracks that live by their probability of existence; the sensor says what it sees.
+TrackerDesign design(const FilterConfig& filter, Association association) {
+  TrackerConfig config;
+  config.association = association;
+  config.life_cycle = LifeCycle::kExistence;
+  config.filters["default"] = filter;
+  return {config,
+          {{.period = 1.0,
+            .sigma = kSigma,
+            .field_of_view = Eigen::AlignedBox2d(Eigen::Vector2d(0.0, 0.0),
+                                                 Eigen::Vector2d(1000.0, 1000.0)),
+            .detection_probability = kSeen,
+            .clutter = 10.0}}};
+}
+
+/// Tracks that live by counts of hits and misses.
 TrackerDesign design(const FilterConfig& filter) {
   TrackerConfig config;
   config.gate = 3.0;
@@ -51,15 +67,16 @@ FilterConfig gh() {
 }
 
 /// Scenario set A: 100 scans from the first to the last, births and deaths included.
-void set_a(benchmark::State& state, const FilterConfig& filter) {
+void set_a(benchmark::State& state, const TrackerDesign& tracker) {
   const std::string name = "A_n" + std::to_string(state.range(0)) + "_detections.csv";
   std::vector<Scan> scans = read_detections_csv(std::filesystem::path(GHTRACK_SOURCE_DIR) /
                                                 "tests/reference/tracking" / name)
                                 .scans;
   for (Scan& scan : scans) {
-    for (Detection& detection : scan.detections) detection.covariance *= kSigma * kSigma;
+    for (Detection& detection : scan.detections) {
+      detection.covariance = kSigma * kSigma * Eigen::Matrix2d::Identity();
+    }
   }
-  const TrackerDesign tracker = design(filter);
   std::size_t tracks = 0;
   for (auto _ : state) {
     TrackerState tracked;
@@ -194,8 +211,14 @@ void boxes(benchmark::State& state) {
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
-BENCHMARK_CAPTURE(set_a, kalman, kalman())->Arg(10)->Arg(50)->Arg(100)->Arg(200);
-BENCHMARK_CAPTURE(set_a, gh, gh())->Arg(10)->Arg(50)->Arg(100)->Arg(200);
+BENCHMARK_CAPTURE(set_a, kalman, design(kalman()))->Arg(10)->Arg(50)->Arg(100)->Arg(200);
+BENCHMARK_CAPTURE(set_a, gh, design(gh()))->Arg(10)->Arg(50)->Arg(100)->Arg(200);
+BENCHMARK_CAPTURE(set_a, existence, design(gh(), Association::kNearestGlobal))->Arg(200);
+BENCHMARK_CAPTURE(set_a, existence_kalman, design(kalman(), Association::kNearestGlobal))->Arg(200);
+BENCHMARK_CAPTURE(set_a, probabilistic, design(gh(), Association::kProbabilistic))->Arg(200);
+BENCHMARK_CAPTURE(set_a, probabilistic_kalman, design(kalman(), Association::kProbabilistic))
+    ->Arg(200);
+BENCHMARK_CAPTURE(set_a, multi_scan, design(gh(), Association::kMultiScan))->Arg(200);
 BENCHMARK_CAPTURE(crowd, gh, gh(), 0.0)
     ->Arg(1'000)
     ->Arg(10'000)

@@ -30,7 +30,7 @@ constexpr int kRounds = 5;
 void film_scene(const WorldScene& scene, const render::VideoOptions& options,
                 const film::FrameMaker::OnFrame& on_frame) {
   SimulatedTruth truth([&] { return make_world(scene); });
-  film::FrameMaker maker(scene, {}, on_frame);
+  film::FrameMaker maker(scene, truth.objects(), {}, on_frame);
   run(scene, truth, std::vector{own_tracker(scene)}, {&maker},
       render::frame_times(options, scene.duration));
 }

@@ -150,6 +150,8 @@ struct TrackOptions {
   bool degrees = false;  // also write latitude and longitude
   std::string format = "auto";
   std::string config;             // YAML file of a tracker; empty: the defaults
+  std::optional<double> noise, detection_probability, clutter;  // instead of the configuration's
+  std::string life_cycle;         // the same: existence or counts; empty: not said
   bool online = false;            // learn from what has been seen so far only
   std::string save_config;        // where to write what was used; empty: nowhere
   std::string output;             // empty: standard output

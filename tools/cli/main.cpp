@@ -142,14 +142,16 @@ void add_look(CLI::App& command, VideoLook& look) {
                      "WIDTHxHEIGHT [px], both even (default: what the scene says, else 1280x720; a "
                      "GIF is at most 640 wide)");
   command.add_option("--theme", look.theme,
-                     "dark, or light for paper (default: dark)");
+                     "dark, or light for paper (default: what the scene says, else dark)");
   command.add_option("--trail", look.trail,
                      "how far back true paths, detections and tracks are shown [s], or whole "
-                     "(default: 3)");
+                     "(default: what the scene says, else 3)");
   add_number(command, "--text", look.text, {.least = 0.5, .most = 3.0},
-             "how much larger letters are than usual, such as 1.5 for a large room (default: 1)");
+             "how much larger letters are than usual, such as 1.5 for a large room (default: what "
+             "the scene says, else 1)");
   add_repeated(command, "--show", look.show,
-               "layer to add, such as fans or insets; may be repeated, or a list: fans,insets")
+               "layer to add, such as smoothed, fans or insets; may be repeated, or a list: "
+               "fans,insets")
       ->delimiter(',');
   add_repeated(command, "--hide", look.hide,
                "layer to leave out, such as legend or grid; may be repeated")
@@ -396,6 +398,17 @@ void add_track(CLI::App& app, TrackOptions& options) {
       ->capture_default_str();
   command.add_option("--config", options.config,
                      "YAML file; `ghtrack reference --track` lists its keys");
+  add_number(command, "--noise", options.noise, {.least = 0.0, .most = 1e12, .above_least = true},
+             "1-sigma error of a detection per axis [m, or pixel] (default: as the configuration "
+             "says, else learned; so the next two)");
+  add_number(command, "--pd", options.detection_probability,
+             {.least = 0.0, .most = 1.0, .above_least = true},
+             "chance that an object in view is detected in a scan");
+  add_number(command, "--clutter", options.clutter, {.least = 0.0, .most = 1e5},
+             "expected false detections per scan");
+  command.add_option("--life-cycle", options.life_cycle,
+                     "when a track counts as real: existence, by its probability, or counts, by its "
+                     "hits and misses (default: as the configuration says, else existence)");
   command.add_option("--save-config", options.save_config,
                      "write what was used, learned or given, as a file for --config");
   command.add_flag("--online", options.online,

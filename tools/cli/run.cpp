@@ -34,6 +34,7 @@
 #include "tools/record/result_folder.hpp"
 #include "tools/record/run_writer.hpp"
 #include "tools/run/run.hpp"
+#include "tools/run/track_history.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -45,21 +46,6 @@ std::vector<std::string> sensor_names(const WorldScene& scene) {
   for (const SensorConfig& sensor : scene.sensors) names.push_back(sensor.name);
   return names;
 }
-
-/// Keeps what the scene's own tracker says.
-class HistoryObserver final : public RunObserver {
- public:
-  explicit HistoryObserver(const TrackerDesign& design) : history_(design) {}
-
-  void add_tracks(const StepRecord& record) override {
-    if (record.contender != 0 || !record.is_in_order()) return;
-    history_.add(record.tracks, record.observation.scan);
-  }
-  const TrackHistory& history() const { return history_; }
-
- private:
-  TrackHistory history_;
-};
 
 void warn_of_missed_collisions(const TruthSource& truth, const WorldScene& scene) {
   if (truth.missed_collisions() == 0) return;
@@ -119,20 +105,18 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunWatch watch(frames.size(), manners.quiet);
   const TrackColumns columns = options.plots ? innovation_columns() : TrackColumns();
-  RunWriter files(folder, objects, sensor_names(scene), columns);
+  RunWriter files(folder, objects, sensor_names(scene), columns, scene.record.columns);
   const RunMetricsOptions scoring = scoring_for(traits_of(scene.sensors));
   RunMetrics metrics(objects, scoring, 0,
                      FilterTheory{contenders.front().tracker.design(), scene.sensors});
   std::optional<RunMatches> matches;
   if (options.matches) matches.emplace(folder / "matches.csv", scoring.gospa());
-  std::vector<ObjectId> everyone;
-  for (const ObjectInfo& object : objects) everyone.push_back(object.id);
-  LabelledObjectRecorder labelled(objects.size(), everyone, kMostHindsightScans);
+  LabelledObjectRecorder labelled(objects.size(), objects_for_hindsight(scene, objects.size()));
   RunObservers observers = {&watch, &files, &metrics, &labelled};
   if (matches) observers.push_back(&*matches);
   if (film) observers.push_back(&*film);
   std::optional<HistoryObserver> history;
-  if (options.smooth) observers.push_back(&history.emplace(contenders.front().tracker.design()));
+  if (options.smooth) observers.push_back(&history.emplace(contenders.front().tracker.design(), 0));
   TruthSource& truth = film ? film->truth() : simulated;
   std::vector<RunCounts> counts;
   try {
@@ -152,15 +136,14 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
 
   RunReport report = metrics.report();
   report.counts = counts.front();
-  if (labelled.is_complete()) {
-    add_hindsight(report, std::move(labelled).objects(), scene, stop_if_interrupted);
-  }
+  add_hindsight(report, std::move(labelled).objects(), scene, stop_if_interrupted);
   if (film) film->writer().finish();
   write_file(folder / "scene.yaml", write_scene(scene));
   AtomicFile scores(folder / "metrics.json");
   write_json(report, [&](std::string_view text) { scores.write(text); });
   scores.commit();
   files.commit();
+  if (scene.record.events) write_events(folder / "events.csv", truth.events(), objects);
   if (history) write_smoothed_tracks(folder / "tracks.csv", history->history(), columns);
   if (matches) matches->commit();
   if (options.plots) write_plots(folder, scoring, scene.name);

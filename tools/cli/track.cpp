@@ -11,12 +11,14 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "scenes/schema/configuration.hpp"
 #include "scenes/schema/descriptions.hpp"
+#include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/reference.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/data_source.hpp"
@@ -465,6 +467,30 @@ void track_sequences(const TrackOptions& options, const OfflineConfig& config, S
   if (evaluation) evaluation->finish();
 }
 
+/// What options say of points, instead of what the configuration says of all sensors or of one.
+void change(OfflineConfig& config, const TrackOptions& options) {
+  const auto apply = [&](OfflineSensor& sensor) {
+    if (options.noise) sensor.noise = options.noise;
+    if (options.noise) sensor.noise_y.reset();
+    if (options.detection_probability) sensor.detection_probability = options.detection_probability;
+    if (options.clutter) sensor.clutter = options.clutter;
+  };
+  apply(config);
+  for (auto& [name, sensor] : config.sensors) apply(sensor);
+  if (options.life_cycle.empty()) return;
+  for (const auto& [name, life_cycle] : enum_names(LifeCycle{})) {
+    if (name != options.life_cycle) continue;
+    config.tracker.life_cycle = life_cycle;
+    config.tracker.check([](std::string_view key, std::string_view message) {
+      throw UsageError(
+          fmt::format("track: with that --life-cycle, tracker.{}: {}", key, message));
+    });
+    return;
+  }
+  throw UsageError(fmt::format("track: --life-cycle is '{}'; allowed are existence and counts",
+                               printable(options.life_cycle)));
+}
+
 /// Whether the input is boxes of MOTChallenge rather than points of a CSV file.
 bool is_mot(const TrackOptions& options) {
   if (options.format != "auto") return options.format != "csv";
@@ -484,6 +510,13 @@ void check(const TrackOptions& options, bool boxes) {
   if (options.plots && (boxes || options.output.empty() || options.output == "-")) {
     throw UsageError(boxes ? "track: --plots are of points; `ghtrack plot` draws boxes"
                            : "track: --plots lie beside the output; name it with -o");
+  }
+  const bool says_of_points = options.noise || options.detection_probability || options.clutter ||
+                              !options.life_cycle.empty();
+  if (boxes && says_of_points) {
+    throw UsageError(
+        "track: --noise, --pd, --clutter and --life-cycle are of points; boxes have `boxes` in "
+        "--config");
   }
   const bool is_filmed = !options.film.output.empty();
   if (!is_filmed && (!options.film.background.empty() || !options.film.homography.empty())) {
@@ -519,6 +552,7 @@ int track(const TrackOptions& options, const Manners& manners) {
   if (!options.config.empty()) {
     config = schema::read_configuration_file<OfflineConfig>(options.config);
   }
+  change(config, options);
   StageTimes times;
   if (boxes) {
     track_sequences(options, config, times, manners);

@@ -40,24 +40,41 @@ function(ghtrack_find_wasm variable)
 endfunction()
 
 # ghtrack_add_wasm(<file.wasm> SOURCES ... [INCLUDES folders...] [DEFINITIONS ...])
-# One module without imports: what the sources export, and `memory`.
+# One module without imports: what the sources export, and `memory`. The sources of a folder are
+# compiled together, a few at a time, as most of the work is in the headers that they share.
 function(ghtrack_add_wasm wasm)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;INCLUDES;DEFINITIONS")
   list(TRANSFORM arg_INCLUDES PREPEND -isystem)
   list(TRANSFORM arg_DEFINITIONS PREPEND -D)
-  set(objects)
+  set(most_together 7)
+  set(parts)
   foreach(source IN LISTS arg_SOURCES)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}")
-    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE name)
-    string(REPLACE "/" "_" name "${name}")
-    set(object "${CMAKE_CURRENT_BINARY_DIR}/wasm/${name}.o")
+    cmake_path(GET source PARENT_PATH part)
+    cmake_path(RELATIVE_PATH part BASE_DIRECTORY "${PROJECT_SOURCE_DIR}")
+    string(REPLACE "/" "_" part "${part}")
+    list(LENGTH sources_${part} count)
+    while(count EQUAL most_together)
+      string(APPEND part "_")
+      list(LENGTH sources_${part} count)
+    endwhile()
+    list(APPEND parts "${part}")
+    list(APPEND sources_${part} "${source}")
+    string(APPEND text_${part} "#include \"${source}\"\n")
+  endforeach()
+  list(REMOVE_DUPLICATES parts)
+  set(objects)
+  foreach(part IN LISTS parts)
+    set(together "${CMAKE_CURRENT_BINARY_DIR}/wasm/${part}.cpp")
+    file(CONFIGURE OUTPUT "${together}" CONTENT "${text_${part}}")
+    set(object "${together}.o")
     add_custom_command(
       OUTPUT "${object}"
       COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} "${GHTRACK_WASM_CXX}" ${GHTRACK_WASM_FLAGS}
-              "-I${PROJECT_SOURCE_DIR}" ${arg_INCLUDES} ${arg_DEFINITIONS} -MD -MF "${object}.d" -c "${source}" -o "${object}"
-      DEPENDS "${source}"
+              "-I${PROJECT_SOURCE_DIR}" ${arg_INCLUDES} ${arg_DEFINITIONS} -MD -MF "${object}.d" -c "${together}" -o "${object}"
+      DEPENDS "${together}" ${sources_${part}}
       DEPFILE "${object}.d"
-      COMMENT "Building WebAssembly object ${name}"
+      COMMENT "Building WebAssembly object ${part}"
       VERBATIM COMMAND_EXPAND_LISTS)
     list(APPEND objects "${object}")
   endforeach()

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
 
 #include "tools/record/text_file.hpp"
 
@@ -120,7 +119,7 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
                  std::vector<std::string>& owned) {
   cells.clear();
   const bool blanks = separator == ' ';
-  const bool quotes = std::memchr(line.data(), '"', line.size()) != nullptr;
+  const bool quotes = line.find('"') != std::string_view::npos;
   if (quotes) {
     owned.clear();  // views into it stay valid because it never grows beyond this
     owned.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), '"')));

@@ -68,8 +68,9 @@ Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfi
                        std::span<const std::optional<RandomMotion>> motions,
                        const RunMetricsOptions& scoring, const std::function<void()>& on_step);
 
-/// Beyond so many scans of all objects a run goes without.
-inline constexpr std::size_t kMostHindsightScans = 20'000;
+/// Those to be recorded for add_hindsight(): all objects of a scene, or none where they would be
+/// looked at more often than 20 000 times, so that the memory of a run does not grow with its length.
+std::vector<ObjectId> objects_for_hindsight(const WorldScene& scene, std::size_t objects);
 
 /// Writes into the report of a run what each object's error may be held against.
 /// @param objects  of the run

@@ -11,9 +11,8 @@
 
 namespace ghtrack {
 LabelledObjectRecorder::LabelledObjectRecorder(std::size_t objects,
-                                               const std::vector<ObjectId>& wanted,
-                                               std::size_t most_scans)
-    : place_(objects), most_scans_(most_scans) {
+                                               const std::vector<ObjectId>& wanted)
+    : place_(objects) {
   for (const ObjectId id : wanted) {
     place_[static_cast<std::size_t>(id)] = objects_.size();
     objects_.push_back({id, {}});
@@ -22,7 +21,7 @@ LabelledObjectRecorder::LabelledObjectRecorder(std::size_t objects,
 
 void LabelledObjectRecorder::add_observation(const TruthSnapshot& truth,
                                              const Observation& observation) {
-  if (!is_complete()) return;
+  if (objects_.empty()) return;
   std::vector<std::optional<Detection>> made(place_.size());
   for (std::size_t i = 0; i < observation.origins.size(); ++i) {
     const ObjectId origin = observation.origins[i];
@@ -35,7 +34,6 @@ void LabelledObjectRecorder::add_observation(const TruthSnapshot& truth,
     std::vector<ObjectScan>& scans = objects_[*place_[id]].scans;
     if (scans.empty() && !made[id]) continue;
     scans.push_back({truth.time, state, made[id], observation.scan.sensor});
-    ++scans_;
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,24 +40,19 @@ using LabelledRuns = std::vector<std::vector<LabelledObject>>;
 /// swarm.
 std::vector<ObjectId> some_objects(const Trial& trial, std::size_t scans);
 
-/// Takes down what each scan says of some objects, for so many scans of objects in all: what comes
-/// after them is left out, and the objects are incomplete.
+/// Takes down what each scan says of some objects.
 class LabelledObjectRecorder final : public RunObserver {
  public:
-  LabelledObjectRecorder(std::size_t objects, const std::vector<ObjectId>& wanted,
-                         std::size_t most_scans = std::numeric_limits<std::size_t>::max());
+  LabelledObjectRecorder(std::size_t objects, const std::vector<ObjectId>& wanted);
 
   void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
 
-  bool is_complete() const { return scans_ < most_scans_; }
   /// Those that have been detected at all.
   std::vector<LabelledObject> objects() &&;
 
  private:
   std::vector<std::optional<std::size_t>> place_;  // of each object in `objects_`
   std::vector<LabelledObject> objects_;
-  std::size_t most_scans_;
-  std::size_t scans_ = 0;
 };
 
 /// Those of these objects that are detected at all in a run, by id.

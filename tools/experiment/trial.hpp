@@ -80,6 +80,7 @@ class Trial {
 
   /// The truth of one run, for who does not share it with other cells.
   RunTruth truth_of(int run, bool is_reused = false) const { return truth_.of_run(run, is_reused); }
+  const SharedTruth& truth() const { return truth_; }
 
   /// Runs every contender on the same detections and scores them.
   /// @return numbers as layout() says

@@ -1,11 +1,16 @@
 #include "tools/film/film.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "tools/film/scene_drawing.hpp"
+#include "tools/metrics/output.hpp"
+#include "tools/run/run.hpp"
 #include "tools/run/schedule.hpp"
+#include "tools/run/track_history.hpp"
 
 namespace ghtrack::film {
 namespace {
@@ -36,6 +41,40 @@ std::unique_ptr<TruthSource> truth_of(const WorldScene& scene, std::function<Wor
   return repeatable_truth(std::move(make_world), merged(scan_instants(scene), shown), on_step);
 }
 
+/// Runs the scene once before, for where the tracks of those shown were as is known at its end.
+std::vector<render::SmoothedPaths> smoothed_paths(const WorldScene& scene, TruthSource& truth,
+                                                  std::span<const Contender> contenders,
+                                                  const std::function<void()>& on_step) {
+  /// Asks whether to give up.
+  struct Pulse final : RunObserver {
+    explicit Pulse(const std::function<void()>& on_step) : beat(on_step) {}
+    void add_tracks(const StepRecord& /*record*/) override { beat(); }
+    const std::function<void()>& beat;
+  };
+  Pulse pulse(on_step);
+  std::deque<HistoryObserver> histories;
+  RunObservers observers = {&pulse};
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    observers.push_back(&histories.emplace_back(contenders[i].tracker.design(), i));
+  }
+  truth.restart();
+  run(scene, truth, contenders, observers);
+  std::vector<render::SmoothedPaths> all;
+  for (const HistoryObserver& observer : histories) {
+    render::SmoothedPaths& paths = all.emplace_back();
+    std::set<int> confirmed;
+    for (const SmoothedSnapshot& now : observer.history().smoothed()) {
+      for (std::size_t i = 0; i < now.smoothed.size(); ++i) {
+        const TrackEstimate& track = now.tracks.tracks[i];
+        if (counts_as_output(track)) confirmed.insert(track.id);
+        paths[track.id].emplace_back(now.tracks.time, now.smoothed[i].state.position);
+      }
+    }
+    std::erase_if(paths, [&](const auto& path) { return !confirmed.contains(path.first); });
+  }
+  return all;
+}
+
 render::VideoWriter writer_of(const WorldScene& scene, render::VideoOptions options,
                               const render::SceneDrawing& drawing) {
   magnify_small_errors(scene, drawing, options);
@@ -52,11 +91,22 @@ Film::Film(const WorldScene& scene, std::function<World()> make_world,
                     render::frame_times(options, scene.duration))),
       world_(make_world()),
       truth_(truth_of(scene, std::move(make_world), times_, on_step)),
-      writer_(writer_of(scene, options,
-                        drawing_of(scene, world_, *truth_, panels_of(contenders, shown), on_step))),
+      writer_(writer_of(scene, options, drawing(scene, options, contenders, shown, on_step))),
       frames_(scene, world_.objects(), shown,
               [this](const render::VideoFrame& frame) { show(frame); }) {
   truth_->restart();
+}
+
+render::SceneDrawing Film::drawing(const WorldScene& scene, const render::VideoOptions& options,
+                                   std::span<const Contender> contenders, const Shown& shown,
+                                   const std::function<void()>& on_step) const {
+  render::SceneDrawing drawing =
+      drawing_of(scene, world_, *truth_, panels_of(contenders, shown), on_step);
+  if (options.layers.shows(render::Layer::kSmoothed)) {
+    drawing.smoothed =
+        smoothed_paths(scene, *truth_, contenders.subspan(shown.first, shown.count), on_step);
+  }
+  return drawing;
 }
 
 void Film::show(const render::VideoFrame& frame) {

@@ -39,6 +39,9 @@ class Film final : public RunObserver {
   render::VideoWriter& writer() { return writer_; }
 
  private:
+  render::SceneDrawing drawing(const WorldScene& scene, const render::VideoOptions& options,
+                               std::span<const Contender> contenders, const Shown& shown,
+                               const std::function<void()>& on_step) const;
   void show(const render::VideoFrame& frame);
 
   double from_;  // [s] of the first frame that is shown

@@ -73,6 +73,9 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
   options.from = config.from;
   options.to = config.to;
   options.layers = render::Layers(config.show);
+  options.trail = config.trail;
+  options.theme = config.theme;
+  options.text = config.text;
   if (const auto target = object_named(objects, config.follow)) {
     options.shots = {{.at = 0.0, .target = target, .center = {}, .width = config.follow_width}};
   }
@@ -94,8 +97,9 @@ void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& d
   constexpr double kWidthInSigmas = 40.0;
   constexpr double kWidthInLengths = 2.5;
   constexpr std::size_t kMost = 2;
+  constexpr std::size_t kCrowd = 20;  // of which two from near by show nothing
   const bool says_where = !options.shots.empty() || !options.close_ups.empty();
-  if (says_where) return;
+  if (says_where || drawing.objects.size() > kCrowd) return;
   const render::Rectangle world = render::world_of(drawing);
   const Vec2 size = world.max - world.min;
   const double scale = std::min(options.width / size.x(), options.height / size.y());  // [px/m]

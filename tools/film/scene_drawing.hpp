@@ -27,7 +27,7 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, Tru
                                 const std::function<void()>& on_step);
 
 /// Adds close-ups of the first targets where errors would be far below a pixel of the whole picture,
-/// unless the scene says where to look.
+/// unless the scene says where to look or shows a crowd.
 void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,
                           render::VideoOptions& options);
 

@@ -3,16 +3,15 @@
 #include <algorithm>
 
 #include "tools/metrics/best_pairs.hpp"
+#include "tools/metrics/ratio.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr double kThreshold = 0.5;
+constexpr double kMatchingThreshold = 0.5;
 constexpr double kContinuity = 1000.0;  // what a pairing of the scan before is worth
 constexpr double kMostlyTracked = 0.8;
 constexpr double kMostlyLost = 0.2;
-
-double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
 /// Fills in what follows from the counts.
 void derive(ClearMotResult& result) {
@@ -45,7 +44,7 @@ void ClearMot::add(const MotStep& step) {
   scores_.clear();
   similarities_.clear();
   for (const Pair& pair : step.pairs) {
-    if (pair.value < kThreshold - kSimilarityRounding) continue;
+    if (pair.value < kMatchingThreshold - kSimilarityRounding) continue;
     const bool held = objects_[step.truth[pair.truth]].current_track == step.tracks[pair.track];
     scores_.push_back({pair.truth, pair.track, pair.value + (held ? kContinuity : 0.0)});
     similarities_.push_back(pair.value);

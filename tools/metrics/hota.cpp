@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "tools/metrics/best_pairs.hpp"
+#include "tools/metrics/ratio.hpp"
 
 namespace ghtrack {
 namespace {
@@ -36,8 +37,6 @@ void count(std::vector<std::int64_t>& scans, std::span<const int> numbers) {
 double mean(const HotaResult::Series& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / kHotaThresholds;
 }
-
-double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
 /// Fills in what follows from the counts and the association at each threshold.
 void derive(HotaResult& result) {

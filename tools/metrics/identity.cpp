@@ -3,23 +3,21 @@
 #include <algorithm>
 
 #include "tools/metrics/best_pairs.hpp"
+#include "tools/metrics/ratio.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr double kThreshold = 0.5;
-
-double ratio(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
+constexpr double kAgreementThreshold = 0.5;
 
 /// Fills in what follows from the counts.
 void derive(IdentityResult& result) {
-  const std::int64_t tracks = result.true_positives + result.false_positives;
-  const std::int64_t truths = result.true_positives + result.false_negatives;
-  result.idf1 = ratio(2 * result.true_positives, truths + tracks);
-  result.idp = ratio(result.true_positives, tracks);
-  result.idr = ratio(result.true_positives, truths);
+  const auto agreed = static_cast<double>(result.true_positives);
+  const auto tracks = agreed + static_cast<double>(result.false_positives);
+  const auto truths = agreed + static_cast<double>(result.false_negatives);
+  result.idf1 = ratio(2.0 * agreed, truths + tracks);
+  result.idp = ratio(agreed, tracks);
+  result.idr = ratio(agreed, truths);
 }
 
 }  // namespace
@@ -28,7 +26,8 @@ void Identity::add(const MotStep& step) {
   truth_scans_ += std::ssize(step.truth);
   track_scans_ += std::ssize(step.tracks);
   for (const Pair& pair : step.pairs) {
-    if (pair.value >= kThreshold) ++agreement_.at(step.truth[pair.truth], step.tracks[pair.track]);
+    if (pair.value >= kAgreementThreshold)
+      ++agreement_.at(step.truth[pair.truth], step.tracks[pair.track]);
   }
 }
 

@@ -128,7 +128,9 @@ std::string scene_page(const WorldScene& scene, const PageOptions& options,
                                .seed = scene.seed,
                                .objects = to_recorded(truth.objects)};
   nlohmann::ordered_json compared = nlohmann::ordered_json::object();
-  for (const auto& [name, filter] : scene.compare.filters) compared[name] = as_json(filter);
+  for (const std::string& name : scene.compare.names()) {
+    compared[name] = as_json(scene.compare.filters.at(name));
+  }
   const nlohmann::json described = {
       {"title", scene.name},
       {"command", options.command},

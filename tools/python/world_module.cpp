@@ -187,15 +187,12 @@ py::object run_scene(const std::string& text, const std::string& name,
       const std::vector<Contender> contenders = {own_tracker(*scene)};
       RunMetrics metrics(truth.objects(), scoring_for(traits_of(scene->sensors)), 0,
                          FilterTheory{contenders.front().tracker.design(), scene->sensors});
-      std::vector<ObjectId> everyone;
-      for (const ObjectInfo& object : truth.objects()) everyone.push_back(object.id);
-      LabelledObjectRecorder labelled(everyone.size(), everyone, kMostHindsightScans);
+      const std::size_t objects = truth.objects().size();
+      LabelledObjectRecorder labelled(objects, objects_for_hindsight(*scene, objects));
       const auto counts = run(*scene, truth, contenders, {&*columns, &metrics, &labelled});
       report = metrics.report();
       report.counts = counts.front();
-      if (labelled.is_complete()) {
-        add_hindsight(report, std::move(labelled).objects(), *scene, [] {});
-      }
+      add_hindsight(report, std::move(labelled).objects(), *scene, [] {});
     }
   }
   if (!columns) return py::none();

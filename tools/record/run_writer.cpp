@@ -1,11 +1,47 @@
 #include "tools/record/run_writer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 namespace ghtrack {
+namespace {
+
+/// What a value of an enum is called in scenes and files.
+template <class Enum>
+std::string_view name_of(Enum value) {
+  for (const auto& [name, one] : enum_names(Enum{})) {
+    if (one == value) return name;
+  }
+  return {};
+}
+
+}  // namespace
+
+void write_events(const std::filesystem::path& path, const std::vector<WorldEvent>& events,
+                  const std::vector<ObjectInfo>& objects) {
+  const auto name = [&](ObjectId id) -> const std::string& {
+    return objects.at(static_cast<std::size_t>(id)).name;
+  };
+  AtomicFile file(path);
+  file.write("t,event,truth_id,name,other_id,other,x,y,impulse_x,impulse_y\n");
+  CsvRow row;
+  for (const WorldEvent& event : events) {
+    row << event.time << name_of(event.kind) << event.object << name(event.object);
+    if (event.other >= 0) {
+      row << event.other << name(event.other);
+    } else {
+      row << std::string_view() << event.surface;
+    }
+    row << event.position.x() << event.position.y() << event.impulse.x() << event.impulse.y();
+    row.end();
+    file.write(row.text());
+    row.clear();
+  }
+  file.commit();
+}
 
 TrackColumns innovation_columns() {
   return {.names = {"s_x", "s_y"}, .append = [](CsvRow& row, const TrackEstimate& track) {
@@ -64,14 +100,21 @@ void TrackWriter::keep_partial() {
 }
 
 RunWriter::RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
-                     std::vector<std::string> sensors, TrackColumns more_of_tracks)
+                     std::vector<std::string> sensors, TrackColumns more_of_tracks,
+                     std::vector<TruthColumn> more_of_truth)
     : objects_(std::move(objects)),
       sensors_(std::move(sensors)),
+      truth_columns_(std::move(more_of_truth)),
       truth_(folder / "truth.csv"),
       detections_(folder / "detections.csv"),
       origins_(folder / "origins.csv"),
       tracks_(folder / "tracks.csv", std::move(more_of_tracks)) {
-  truth_.write("t,truth_id,name,kind,x,y,vx,vy,ax,ay\n");
+  truth_.write("t,truth_id,name,kind,x,y,vx,vy,ax,ay");
+  for (const TruthColumn column : truth_columns_) {
+    truth_.write(column == TruthColumn::kWind ? ",wind_x,wind_y"
+                                              : "," + std::string(name_of(column)));
+  }
+  truth_.write("\n");
   detections_.write("t,sensor,class,x,y\n");
   origins_.write("t,sensor,x,y,truth_id\n");
 }
@@ -103,6 +146,17 @@ void RunWriter::write_truth(const TruthSnapshot& truth) {
     rows_ << truth.time << state.id << object.name << object.regime << state.position.x()
           << state.position.y() << state.velocity.x() << state.velocity.y()
           << state.acceleration.x() << state.acceleration.y();
+    // Of an object with several parts the first speaks for it; they come in the order of the ids.
+    const auto part =
+        std::lower_bound(truth.bodies.begin(), truth.bodies.end(), state.id,
+                         [](const BodyPose& body, ObjectId id) { return body.id < id; });
+    for (const TruthColumn column : truth_columns_) {
+      if (column == TruthColumn::kWind) {
+        rows_ << state.wind.x() << state.wind.y();
+      } else {
+        rows_ << (column == TruthColumn::kHeading ? part->angle : part->spin);
+      }
+    }
     rows_.end();
   }
   truth_.write(rows_.text());

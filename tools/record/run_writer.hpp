@@ -42,6 +42,13 @@ class TrackWriter {
   double time_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// Writes events.csv: `t,event,truth_id,name,other_id,other,x,y,impulse_x,impulse_y`: when what
+/// happened to whom, by which other object (its id is empty for a surface of the surroundings), where
+/// its centre was, and the impulse that it received [N s].
+/// @throws WriteError
+void write_events(const std::filesystem::path& path, const std::vector<WorldEvent>& events,
+                  const std::vector<ObjectInfo>& objects);
+
 /// Writes what happened in a run, scan by scan, into a folder: truth.csv, detections.csv,
 /// origins.csv and, of contender 0, tracks.csv; late scans leave no row there. The files get their names by commit(); without it, or
 /// keep_partial(), none is left.
@@ -51,9 +58,11 @@ class RunWriter final : public RunObserver {
   /// @param sensors  names for the column `sensor`, by index; a sensor without a name is written as
   ///                 its index
   /// @param more_of_tracks  columns of tracks.csv beside its own
+  /// @param more_of_truth   and of truth.csv
   /// @throws WriteError if a file cannot be made; the other members throw it when writing fails
   RunWriter(const std::filesystem::path& folder, std::vector<ObjectInfo> objects,
-            std::vector<std::string> sensors = {}, TrackColumns more_of_tracks = {});
+            std::vector<std::string> sensors = {}, TrackColumns more_of_tracks = {},
+            std::vector<TruthColumn> more_of_truth = {});
 
   void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
   void add_tracks(const StepRecord& record) override;
@@ -68,6 +77,7 @@ class RunWriter final : public RunObserver {
 
   std::vector<ObjectInfo> objects_;
   std::vector<std::string> sensors_;
+  std::vector<TruthColumn> truth_columns_;
   AtomicFile truth_, detections_, origins_;
   TrackWriter tracks_;
   CsvRow rows_, origin_rows_;  // working space

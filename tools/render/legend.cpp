@@ -84,6 +84,9 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wi
         canvas.line(at(-12.0 + 4 * i, 4.0 - 1.4 * i), at(-8.0 + 4 * i, 2.6 - 1.4 * i),
                     mix(style.theme().page, color, 0.2 + 0.16 * i), style.length(2));
       break;
+    case Sign::kSmoothed:
+      canvas.line(at(-12, 4), at(12, -4), style.theme().text, style.length(1.4));
+      break;
     case Sign::kResidual:
       canvas.polygon({at(-13, 4), at(-9, 0), at(-5, 4), at(-9, 8)}, color);
       canvas.arrow(at(-9, 4), at(8, -4), 7 * u, color, style.length(1.5));
@@ -156,6 +159,7 @@ Legend::Legend(const VideoOptions& options, const SceneDrawing& scene, const Sty
   if (layers.shows(Layer::kGates)) add({Sign::kGate}, U"predicted innovation, 99 %");
   if (layers.shows(Layer::kTracks)) add({Sign::kTrack}, U"estimate");
   if (layers.shows(Layer::kTrails)) add({Sign::kTrail}, U"its trail");
+  if (layers.shows(Layer::kSmoothed)) add({Sign::kSmoothed}, U"smoothed afterwards");
   if (layers.shows(Layer::kFans)) add({Sign::kFan}, U"next second");
   if (layers.shows(Layer::kTentative)) add({Sign::kTentative}, U"tentative");
   if (layers.shows(Layer::kTracks)) add({Sign::kCoasting}, U"coasting");

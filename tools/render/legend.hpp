@@ -23,6 +23,7 @@ enum class Sign {
   kPath,
   kClutter,
   kTrail,
+  kSmoothed,
   kGate,
   kResidual,
   kFan,

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "tools/render/backdrop.hpp"
@@ -46,7 +47,10 @@ Style style_of(const VideoOptions& options) {
 }
 
 /// Slow motion shows as much of the past as real time does; time lapse shows more.
-double trail_of(const VideoOptions& options) { return options.trail / std::min(1.0, options.slow); }
+double trail_of(const VideoOptions& options, const SceneDrawing& scene) {
+  if (options.trail >= scene.duration) return std::numeric_limits<double>::infinity();
+  return options.trail / std::min(1.0, options.slow);
+}
 
 Style style_of_panels(Style style, const SceneDrawing& scene) {
   if (scene.panels.size() > 1) style.unit *= kSmallUnit;
@@ -63,7 +67,7 @@ Picture::Picture(const VideoOptions& options, const SceneDrawing& scene)
       legend_(options_, scene_, style_, panel_style_, fonts_),
       layout_(lay_out(options_, scene_, style_, legend_.height())),
       camera_(options_, scene_),
-      past_(trail_of(options), scene.duration),
+      past_(trail_of(options, scene), scene.duration),
       errors_(0.0, scene.duration),
       insets_(options.slow) {
   const bool compares = layout_.panels.size() > 1;
@@ -71,7 +75,7 @@ Picture::Picture(const VideoOptions& options, const SceneDrawing& scene)
     const TrackMemory::Manner manner{
         .color = compares ? std::optional(style_.theme().track(static_cast<int>(i))) : std::nullopt,
         .slow = options.slow,
-        .trail = trail_of(options),
+        .trail = trail_of(options, scene),
         .theme = &style_.theme()};
     panels_.push_back({camera_.view(options.from, layout_.panels[i]),
                        TrackMemory(manner, scene_.objects), {}});
@@ -165,6 +169,8 @@ void Picture::draw_world(Canvas& canvas, const Stage& stage, const VideoFrame& f
   past_.draw(canvas, stage);
   if (stage.shows(Layer::kTruth)) draw_truth(canvas, stage, frame.truth);
   draw_detections(canvas, stage, frame);
+  if (stage.shows(Layer::kSmoothed) && panel < scene_.smoothed.size())
+    draw_smoothed(canvas, stage, panels_[panel].memory, scene_.smoothed[panel], frame.time);
   draw_tracks(canvas, stage, panels_[panel].memory, frame, frame.panels[panel]);
 }
 

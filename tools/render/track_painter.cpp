@@ -127,4 +127,19 @@ void draw_tracks(Canvas& canvas, const Stage& stage, const TrackMemory& memory,
   if (stage.shows(Layer::kEvents)) painter.events();
 }
 
+void draw_smoothed(Canvas& canvas, const Stage& stage, const TrackMemory& memory,
+                   const SmoothedPaths& paths, double time) {
+  for (const auto& [id, path] : paths) {
+    std::vector<Pixel> points;
+    std::vector<double> opacities;
+    for (const auto& [when, position] : path) {
+      const double age = memory.trail_age(when);
+      if (when > time || age >= 1.0) continue;
+      points.push_back(stage.view.to_pixel(position));
+      opacities.push_back(1.0 - age);
+    }
+    canvas.fading(points, opacities, stage.style.theme().text, stage.style.length(1.4));
+  }
+}
+
 }  // namespace ghtrack::render

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/schema/video_corner.hpp"
@@ -66,7 +68,9 @@ struct VideoOptions {
   std::vector<Shot> shots;  // in the order of time; before the first the whole world is shown
   double glide = 1.5;       // [s] scene time that the camera takes from shot to shot
   std::vector<CloseUp> close_ups;  // one above the other where they share a corner
-  double trail = 3.0;              // [s] scene time that paths, marks and trails reach back
+  /// [s] scene time that paths, marks and trails reach back; from the scene's duration on they stay
+  /// and do not fade
+  double trail = 3.0;
   VideoTheme theme = VideoTheme::kDark;
   double text = 1.0;  // how much larger letters are than usual
 };
@@ -92,6 +96,9 @@ struct RegimeScore {
   std::optional<double> rmse;  // [m] of the positions; absent: nobody has been followed yet
 };
 
+/// Where tracks were as is known afterwards: times [s] and positions [m] by track id.
+using SmoothedPaths = std::map<int, std::vector<std::pair<double, Vec2>>>;
+
 /// What stays the same in every frame of a scene.
 struct SceneDrawing {
   std::string title;
@@ -109,6 +116,7 @@ struct SceneDrawing {
   /// What is compared side by side: at most six, each a panel of its own. Empty or one: one
   /// picture.
   std::vector<PanelDrawing> panels;
+  std::vector<SmoothedPaths> smoothed;  // of each panel, or of the one picture; empty: none
   /// Velocity of the air [m/s] at a place [m] and a time [s]; empty: no arrows.
   std::function<Vec2(const Vec2&, double)> wind;
   double strongest_wind = 0.0;  // [m/s] to be expected: scales the arrows

@@ -20,8 +20,8 @@ Contender with_filter(const WorldScene& scene, const std::string& name,
 std::vector<Contender> compared_filters(const WorldScene& scene) {
   if (scene.compare.filters.empty()) return {own_tracker(scene)};
   std::vector<Contender> contenders;
-  for (const auto& [name, filter] : scene.compare.filters) {
-    contenders.push_back(with_filter(scene, name, filter));
+  for (const std::string& name : scene.compare.names()) {
+    contenders.push_back(with_filter(scene, name, scene.compare.filters.at(name)));
   }
   return contenders;
 }

@@ -23,7 +23,7 @@ Contender own_tracker(const WorldScene& scene);
 /// The scene's tracker with one filter for every target.
 Contender with_filter(const WorldScene& scene, const std::string& name, const FilterConfig& filter);
 
-/// The filters to compare, by name; without any under `compare` the scene's own tracker alone.
+/// The filters to compare, in the scene's order; without any under `compare` the scene's own tracker alone.
 std::vector<Contender> compared_filters(const WorldScene& scene);
 
 }  // namespace ghtrack

@@ -94,9 +94,10 @@ SensorSaid said_of(const OfflineSensor& sensor) {
   return said;
 }
 
-/// "0.98 (0.91 … 1.05)".
+/// "0.98 (0.91 … 1.05)"; what nothing could be learned of is supposed.
 std::string text(const Learned& learned) {
   if (learned.is_given) return fmt::format("{:.3g} (given)", learned.value);
+  if (!(learned.high > learned.low)) return fmt::format("{:.3g} (supposed)", learned.value);
   return fmt::format("{:.3g} ({:.3g} … {:.3g})", learned.value, learned.low, learned.high);
 }
 
@@ -160,8 +161,10 @@ std::vector<std::string> describe(const LearnedConfig& result) {
   const LearnedTracker& learned = result.learned;
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "learned from {} scans in {} passes: {} tracks explain {:.0f} % of the detections",
-      learned.scans, learned.passes, learned.tracks, 100.0 * learned.explained));
+      "learned from {} scan{} in {} pass{}: {} track{} explain{} {:.0f} % of the detections",
+      learned.scans, learned.scans == 1 ? "" : "s", learned.passes,
+      learned.passes == 1 ? "" : "es", learned.tracks, learned.tracks == 1 ? "" : "s",
+      learned.tracks == 1 ? "s" : "", 100.0 * learned.explained));
   for (std::size_t s = 0; s < learned.sensors.size(); ++s) {
     lines.push_back(sensor_text(learned.sensors[s], result.sensors[s]));
   }

@@ -32,7 +32,7 @@ class Run {
       const RunObservers& observers, std::span<const double> frame_times)
       : scene_(scene),
         truth_(truth),
-        setting_{.objects = truth.objects(), .classes = regime_kinds(), .seed = scene.seed},
+        setting_{.objects = truth.objects(), .classes = detectable_classes(truth.objects()), .seed = scene.seed},
         observers_(observers),
         frame_times_(frame_times) {
     for (const Contender& contender : contenders) trackers_.push_back(contender.tracker);

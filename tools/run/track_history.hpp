@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sensors/detection.hpp"
+#include "tools/record/run_observer.hpp"
 #include "tracker/filters/smoother.hpp"
 #include "tracker/track.hpp"
 #include "tracker/tracker_design.hpp"
@@ -40,6 +41,23 @@ class TrackHistory {
   double sigma_, period_;  // of the sensor that the filters are designed for
   std::vector<TrackSnapshot> snapshots_;
   std::map<int, OneTrack> tracks_;  // by id
+};
+
+/// Keeps what one contender of a run says.
+class HistoryObserver final : public RunObserver {
+ public:
+  HistoryObserver(const TrackerDesign& design, std::size_t contender)
+      : history_(design), contender_(contender) {}
+
+  void add_tracks(const StepRecord& record) override {
+    if (record.contender != contender_ || !record.is_in_order()) return;
+    history_.add(record.tracks, record.observation.scan);
+  }
+  const TrackHistory& history() const { return history_; }
+
+ private:
+  TrackHistory history_;
+  std::size_t contender_;
 };
 
 }  // namespace ghtrack

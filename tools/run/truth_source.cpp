@@ -24,7 +24,7 @@ std::shared_ptr<const TruthSnapshot> SimulatedTruth::at(double time) {
 
 TruthRecording record(TruthSource& truth, const std::vector<double>& instants,
                       const std::function<void()>& on_step) {
-  TruthRecording recording{.objects = truth.objects(), .snapshots = {}, .displacements = {}};
+  TruthRecording recording{.objects = truth.objects(), .snapshots = {}, .displacements = {}, .events = {}};
   recording.snapshots.reserve(instants.size());
   for (const double time : instants) {
     on_step();
@@ -32,6 +32,7 @@ TruthRecording record(TruthSource& truth, const std::vector<double>& instants,
   }
   recording.missed_collisions = truth.missed_collisions();
   recording.displacements = truth.displacements();
+  recording.events = truth.events();
   return recording;
 }
 
@@ -59,7 +60,7 @@ std::unique_ptr<TruthSource> repeatable_truth(std::function<World()> make_world,
 }
 
 World make_world(const WorldScene& scene) {
-  return World({scene.physics, scene.environment, scene.targets}, scene.seed);
+  return World({scene.physics, scene.environment, scene.targets, scene.record}, scene.seed);
 }
 
 std::vector<double> extent_instants(double duration) {

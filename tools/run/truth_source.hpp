@@ -29,6 +29,9 @@ class TruthSource {
 
   /// Who appeared inside something so far, and was moved out of it.
   virtual const std::vector<Displacement>& displacements() const = 0;
+
+  /// What happened so far, if the scene records it.
+  virtual const std::vector<WorldEvent>& events() const = 0;
 };
 
 /// Truth that is simulated as it is asked for.
@@ -47,6 +50,7 @@ class SimulatedTruth final : public TruthSource {
   const std::vector<Displacement>& displacements() const override {
     return world_.displacements();
   }
+  const std::vector<WorldEvent>& events() const override { return world_.events(); }
 
  private:
   std::function<World()> make_world_;
@@ -60,6 +64,7 @@ struct TruthRecording {
   std::vector<std::shared_ptr<const TruthSnapshot>> snapshots;  // ascending
   std::int64_t missed_collisions = 0;
   std::vector<Displacement> displacements;
+  std::vector<WorldEvent> events;
 };
 
 /// Goes through a truth and keeps it at some instants.
@@ -88,6 +93,7 @@ class ReplayedTruth final : public TruthSource {
   const std::vector<Displacement>& displacements() const override {
     return recording_->displacements;
   }
+  const std::vector<WorldEvent>& events() const override { return recording_->events; }
 
  private:
   std::shared_ptr<const TruthRecording> recording_;

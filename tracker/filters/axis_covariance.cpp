@@ -1,5 +1,7 @@
 #include "tracker/filters/axis_covariance.hpp"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -52,15 +54,14 @@ AxisCovariance<double> one_step(ProcessModel model, int order, double intensity,
 
 /// Σ F(iT) Q F(iT)ᵀ for i = 0 … n − 1, in closed form and so for any n ≥ 1. [t] = T
 AxisCovariance<double> many_steps(const AxisCovariance<double>& q, double t, double n) {
-  const double s1 = n * (n - 1.0) / 2.0;                          // Σ i
-  const double s2 = s1 * (2.0 * n - 1.0) / 3.0;                   // Σ i²
-  const double s3 = s1 * s1;                                      // Σ i³
-  const double s4 = s2 * (3.0 * n * n - 3.0 * n - 1.0) / 5.0;     // Σ i⁴
+  const double s1 = n * (n - 1.0) / 2.0;                       // Σ i
+  const double s2 = s1 * (2.0 * n - 1.0) / 3.0;                // Σ i²
+  const double s3 = s1 * s1;                                   // Σ i³
+  const double s4 = s2 * (3.0 * n * n - 3.0 * n - 1.0) / 5.0;  // Σ i⁴
   const double t2 = t * t;
   return {.xx = n * q.xx + 2.0 * s1 * t * q.xv + s2 * t2 * (q.vv + q.xa) + s3 * t * t2 * q.va +
                 0.25 * s4 * t2 * t2 * q.aa,
-          .xv = n * q.xv + s1 * t * (q.vv + q.xa) + 1.5 * s2 * t2 * q.va +
-                0.5 * s3 * t * t2 * q.aa,
+          .xv = n * q.xv + s1 * t * (q.vv + q.xa) + 1.5 * s2 * t2 * q.va + 0.5 * s3 * t * t2 * q.aa,
           .xa = n * q.xa + s1 * t * q.va + 0.5 * s2 * t2 * q.aa,
           .vv = n * q.vv + 2.0 * s1 * t * q.va + s2 * t2 * q.aa,
           .va = n * q.va + s1 * t * q.aa,
@@ -96,27 +97,49 @@ double intensity_of_index(ProcessModel model, double index, double sigma, double
   return model == ProcessModel::kWhiteNoise ? acceleration * acceleration * dt : acceleration;
 }
 
+AxisCovariance<double> settled_prediction(const AxisCovariance<double>& q, int order, double r,
+                                          double dt) {
+  using Eigen::Matrix3d;
+  constexpr int kMostDoublings = 60;
+  constexpr int kPolishingSteps = 40;
+  constexpr double kSettled = 1e-15;
+  // After 2ᵏ steps: Φ carries an error along, J is what the measurements say of the first state,
+  // P the covariance of the last if the first was known.
+  Matrix3d carry = Matrix3d::Zero();  // Φᵀ
+  carry(0, 0) = 1.0;
+  if (order >= 1) carry.row(1) << dt, 1.0, 0.0;
+  if (order >= 2) carry.row(2) << 0.5 * dt * dt, dt, 1.0;
+  Matrix3d said = Matrix3d::Zero();
+  said(0, 0) = 1.0 / r;
+  Matrix3d p;
+  p << q.xx, q.xv, q.xa, q.xv, q.vv, q.va, q.xa, q.va, q.aa;
+  for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+    const Matrix3d combined = (Matrix3d::Identity() + said * p).inverse();
+    const Matrix3d added = carry.transpose() * (p * combined) * carry;
+    const Matrix3d step = carry * combined;
+    said += step * said * carry.transpose();
+    carry = step * carry;
+    p += added;
+    if ((added.diagonal().array() <= kSettled * p.diagonal().array()).all()) break;
+  }
+  AxisCovariance<double> settled{p(0, 0), p(0, 1), p(0, 2), p(1, 1), p(1, 2), p(2, 2)};
+  // Single steps take away what rounding has left where Q is large: there each forgets much.
+  for (int step = 0; step < kPolishingSteps; ++step) {
+    const double s = settled.xx + r;
+    settled =
+        extrapolated(corrected(settled, {settled.xx / s, settled.xv / s, settled.xa / s}, r), dt);
+    settled += q;
+  }
+  return settled;
+}
+
 Gains steady_kalman_gains(ProcessModel model, int order, double intensity, double sigma,
                           double dt) {
-  constexpr int kMostSteps = 100000;
   const double r = sigma * sigma;
-  const AxisCovariance<double> q = process_noise(model, order, intensity, dt);
-  AxisCovariance<double> p{r, 0.0, 0.0, 0.0, 0.0, 0.0};
-  if (order >= 1) p.vv = r / (dt * dt);
-  if (order >= 2) p.aa = r / (dt * dt * dt * dt);
-  Gains gains{order, 0.0, 0.0, 0.0};
-  for (int step = 0; step < kMostSteps; ++step) {
-    p = extrapolated(p, dt);
-    p += q;
-    const double s = p.xx + r;
-    const Gains next{order, p.xx / s, dt * p.xv / s, 0.5 * dt * dt * p.xa / s};
-    const double change = std::max(
-        {std::abs(next.g - gains.g), std::abs(next.h - gains.h), std::abs(next.k - gains.k)});
-    gains = next;
-    if (change < 1e-16) break;
-    p = corrected(p, {p.xx / s, p.xv / s, p.xa / s}, r);
-  }
-  return gains;
+  const AxisCovariance<double> p =
+      settled_prediction(process_noise(model, order, intensity, dt), order, r, dt);
+  const double s = p.xx + r;
+  return {order, p.xx / s, dt * p.xv / s, 0.5 * dt * dt * p.xa / s};
 }
 
 }  // namespace ghtrack

@@ -86,7 +86,17 @@ AxisCovariance<double> process_noise(
 /// The intensity for which a filter has tracking index λ at step dt.
 double intensity_of_index(ProcessModel model, double index, double sigma, double dt);
 
-/// Gains of the Kalman filter in the steady state, by iterating its covariance.
+/// Error covariance before an update of the Kalman filter that has settled: the solution P of
+/// P = F (P − P Hᵀ (H P Hᵀ + r)⁻¹ H P) Fᵀ + Q, by doubling the number of steps until it stays
+/// (Chu, Fan, Lin & Wang, Int. J. Control 77, 2004, algorithm SDA).
+/// @param q      what a step adds
+/// @param order  highest derivative of the filter: 0, 1 or 2
+/// @param r      variance of the measurement [m²], > 0
+/// @param dt     of a step [s], > 0
+AxisCovariance<double> settled_prediction(const AxisCovariance<double>& q, int order, double r,
+                                          double dt);
+
+/// Gains of the Kalman filter in the steady state.
 Gains steady_kalman_gains(ProcessModel model, int order, double intensity, double sigma, double dt);
 
 }  // namespace ghtrack

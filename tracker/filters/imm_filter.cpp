@@ -119,15 +119,15 @@ bool ImmFilter::predict(double dt) {
   if (!is_started()) return true;
   ImmFilter next = *this;
   next.mix(dt);
-  for (Mode& mode : next.modes_) {
-    if (!mode.filter.predict(dt)) {
-      ++refusals_.times;
-      return false;
-    }
+  const bool all = std::all_of(next.modes_.begin(), next.modes_.end(),
+                               [&](Mode& mode) { return mode.filter.predict(dt); });
+  next.combine();
+  if (!all || !next.is_finite()) {
+    ++refusals_.times;
+    return false;
   }
   *this = std::move(next);
   residual_.reset();
-  combine();
   prior_ = estimate_;
   return true;
 }
@@ -145,36 +145,38 @@ bool ImmFilter::update(const Vector& z) {
 }
 
 bool ImmFilter::update(const Measurement& measured) {
-  std::vector<Mode> next = modes_;
-  for (Mode& mode : next) {
-    if (!mode.filter.update(measured)) {
-      ++refusals_.measurements;
-      return false;
-    }
+  ImmFilter next = *this;
+  const bool all = std::all_of(next.modes_.begin(), next.modes_.end(),
+                               [&](Mode& mode) { return mode.filter.update(measured); });
+  if (all) next.weigh();
+  next.combine();
+  if (!all || !next.is_finite()) {
+    ++refusals_.measurements;
+    return false;
   }
+  next.prior_ = estimate_;
+  next.residual_ = next.estimate_.position - estimate_.position;
+  next.misses_ = 0;
+  ++next.updates_;
+  *this = std::move(next);
+  return true;
+}
+
+/// Gives the modes weights by how well each has foreseen the measurement.
+void ImmFilter::weigh() {
   const auto log_of = [](const Mode& mode) { return mode.filter.log_likelihood(); };
   const double best = log_of(*std::max_element(
-      next.begin(), next.end(),
+      modes_.begin(), modes_.end(),
       [&](const Mode& a, const Mode& b) { return log_of(a) < log_of(b); }));
+  std::vector<double> weights;
   double sum = 0.0;
-  for (Mode& mode : next) {
-    mode.weight *= portable::exp(log_of(mode) - best);
-    sum += mode.weight;
+  for (const Mode& mode : modes_) {
+    sum += weights.emplace_back(mode.weight * portable::exp(log_of(mode) - best));
   }
-  if (sum > 0.0 && std::isfinite(sum)) {
-    for (Mode& mode : next) mode.weight /= sum;
-    log_likelihood_ = best + portable::log(sum);
-  } else {  // none has foreseen it
-    for (std::size_t i = 0; i < next.size(); ++i) next[i].weight = modes_[i].weight;
-    log_likelihood_ = best;
-  }
-  modes_ = std::move(next);
-  prior_ = estimate_;
-  combine();
-  residual_ = estimate_.position - prior_.position;
-  misses_ = 0;
-  ++updates_;
-  return true;
+  log_likelihood_ = best;
+  if (!(sum > 0.0 && std::isfinite(sum))) return;  // none has foreseen it
+  for (std::size_t i = 0; i < modes_.size(); ++i) modes_[i].weight = weights[i] / sum;
+  log_likelihood_ += portable::log(sum);
 }
 
 void ImmFilter::coast() {

@@ -77,7 +77,9 @@ class ImmFilter {
 
  private:
   void mix(double dt);
+  void weigh();
   void combine();
+  bool is_finite() const { return estimate_.is_finite() && covariance_.allFinite(); }
 
   std::vector<Mode> modes_;
   double switching_;

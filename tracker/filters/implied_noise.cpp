@@ -40,27 +40,10 @@ NoiseDensities implied_noise(const Gains& gains, double sigma, double dt) {
 
 AxisCovariance<double> steady_covariance(const NoiseDensities& noise, int order, double sigma,
                                          double dt) {
-  constexpr int kMostSteps = 100000;
-  constexpr double kSettled = 1e-13;
   const double r = sigma * sigma;
-  const AxisCovariance<double> q = noise.over(dt);
-  AxisCovariance<double> p{r, 0.0, 0.0, 0.0, 0.0, 0.0};
-  if (order >= 1) p.vv = r / (dt * dt);
-  if (order >= 2) p.aa = r / (dt * dt * dt * dt);
-  for (int step = 0; step < kMostSteps; ++step) {
-    const AxisCovariance<double> before = p;
-    p = extrapolated(p, dt);
-    p += q;
-    const double s = p.xx + r;
-    p = corrected(p, {p.xx / s, p.xv / s, p.xa / s}, r);
-    const auto is_settled = [](double now, double then) {
-      return std::abs(now - then) <= kSettled * now;
-    };
-    if (is_settled(p.xx, before.xx) && is_settled(p.vv, before.vv) && is_settled(p.aa, before.aa)) {
-      break;
-    }
-  }
-  return p;
+  const AxisCovariance<double> p = settled_prediction(noise.over(dt), order, r, dt);
+  const double s = p.xx + r;
+  return corrected(p, {p.xx / s, p.xv / s, p.xa / s}, r);
 }
 
 }  // namespace ghtrack

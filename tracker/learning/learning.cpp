@@ -20,7 +20,7 @@ constexpr int kMostPasses = 6;          // with filters of constant velocity
 constexpr double kFirstDetection = 0.8; // probability, until it is known
 constexpr double kFirstIndex = 0.3;     // squared tracking index q T³ / σ²
 constexpr double kFalseAtLeast = 0.02;  // of the detections, until it is known
-constexpr double kClearly = 5.0;        // in ln p: by which a costlier filter has to be better
+constexpr double kClearlyBetter = 5.0;        // in ln p: by which a costlier filter has to be better
 constexpr std::size_t kFewestTracks = 2;  // for a class to get a filter of its own
 constexpr std::size_t kFewestFixes = 30;
 
@@ -112,7 +112,7 @@ class Learner {
     }
     if (!choose_filters(best)) best.pass = track(best.parameters);
     for (Candidate& candidate : candidates) {
-      if (merit(candidate.pass) > merit(best.pass) + kClearly) best = std::move(candidate);
+      if (merit(candidate.pass) > merit(best.pass) + kClearlyBetter) best = std::move(candidate);
     }
     return result(best);
   }

@@ -8,7 +8,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kSure = 0.9;
-constexpr std::size_t kFewestFixes = 4;
+constexpr std::size_t kFewestToLookBack = 4;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void PathRecorder::add(const TrackerState& state, const Scan& said) {
 std::vector<Path> PathRecorder::paths() const {
   std::vector<std::pair<int, const Path*>> kept;
   for (const auto& [birth, open] : by_birth_) {
-    if (open.surest < kSure || open.path.fixes.size() < kFewestFixes) continue;
+    if (open.surest < kSure || open.path.fixes.size() < kFewestToLookBack) continue;
     kept.emplace_back(birth, &open.path);
   }
   std::sort(kept.begin(), kept.end());

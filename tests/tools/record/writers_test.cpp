@@ -193,6 +193,37 @@ TEST(RunWriter, WritesThePromisedColumns) {
             "0.2,3,confirmed,gh,1,2,3,4,0,0,0.5,2.5,0.125,-0.5,0.25,0.5\n");
 }
 
+// Derived: the columns that may be asked for beside, and events, written out by hand.
+TEST(RunWriter, WritesMoreOfTheTruthIfAsked) {
+  const ScratchFolder folder;
+  RunWriter writer(folder.path(), two_objects(), {"camera"}, {},
+                   {TruthColumn::kSpin, TruthColumn::kWind, TruthColumn::kHeading});
+  StepRecord record = record_at(0.1);
+  record.truth.objects[0].wind = Vec2(-2.0, 0.5);
+  BodyPose other;
+  BodyPose body;
+  body.id = 1;
+  body.angle = 0.75;
+  body.spin = -8.0;
+  record.truth.bodies = {other, body};
+  add(writer, record);
+  writer.commit();
+  EXPECT_EQ(folder.read("truth.csv"),
+            "t,truth_id,name,kind,x,y,vx,vy,ax,ay,spin,wind_x,wind_y,heading\n"
+            "0.1,1,fly ball,ball,1.5,2,3,4,0,-9.80665,-8,-2,0.5,0.75\n");
+  const std::string other_name = two_objects()[0].name;
+  write_events(folder.path() / "events.csv",
+               {{0.25, EventKind::kContact, 1, 0, "", Vec2(1.0, 2.0), Vec2(-3.0, 0.5)},
+                {0.5, EventKind::kContact, 1, -1, "walls[2]", Vec2(1.0, 0.0), Vec2(0.0, 4.0)},
+                {0.75, EventKind::kBurst, 0, -1, "", Vec2(7.0, 8.0), Vec2::Zero()}},
+               two_objects());
+  EXPECT_EQ(folder.read("events.csv"),
+            "t,event,truth_id,name,other_id,other,x,y,impulse_x,impulse_y\n"
+            "0.25,contact,1,fly ball,0," + other_name + ",1,2,-3,0.5\n"
+            "0.5,contact,1,fly ball,,walls[2],1,0,0,4\n"
+            "0.75,burst,0," + other_name + ",,,7,8,0,0\n");
+}
+
 // Property: of two sensors at one instant, truth and tracks have one row per time.
 TEST(RunWriter, WritesTruthAndTracksOncePerTime) {
   const ScratchFolder folder;

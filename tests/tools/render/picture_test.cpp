@@ -228,6 +228,27 @@ TEST(Picture, RemembersWhereThingsWereAsLongAsTheTrail) {
   EXPECT_EQ(brightest(4.0, {62.0, 40.0}), kDark.world.green);
 }
 
+// Derived: what was known afterwards is drawn up to the time of the picture, as far back as trails
+// reach; from the length of the scene on they reach everything and nothing fades.
+TEST(Picture, ShowsWhereTracksWereAsIsKnownAfterwards) {
+  SceneDrawing scene = one_ball();
+  scene.duration = 10.0;
+  scene.smoothed.resize(1);
+  for (int i = 0; i <= 100; ++i) scene.smoothed[0][1].emplace_back(0.1 * i, Vec2(10.0 + i, 20.0));
+  const auto drawn = [&](double trail, const Vec2& place) {
+    VideoOptions options;
+    options.trail = trail;
+    options.layers = Layers(std::array{Layer::kSmoothed});
+    VideoFrame frame = ball_at({60.0, 80.0});
+    frame.time = frame.truth.time = 5.0;
+    return color_at(draw(options, scene, frame), view_of(options, scene).to_pixel(place));
+  };
+  EXPECT_NE(drawn(3.0, {55.0, 20.0}), kDark.world);
+  EXPECT_EQ(drawn(3.0, {65.0, 20.0}), kDark.world);
+  EXPECT_EQ(drawn(3.0, {25.0, 20.0}), kDark.world);
+  EXPECT_EQ(drawn(10.0, {25.0, 20.0}), drawn(10.0, {55.0, 20.0}));
+}
+
 // Property: the light theme has a white ground and dark letters.
 TEST(Picture, ComesInColoursForPaper) {
   VideoOptions options;

@@ -4,12 +4,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tracker/filters/gains/order.hpp"
+
 namespace ghtrack {
 namespace {
-
-void require_order(int order) {
-  if (order < 0 || order > 2) throw std::invalid_argument("order must be 0, 1 or 2");
-}
 
 void require_fading(double theta) {
   if (!(theta >= 0.0 && theta < 1.0)) throw std::invalid_argument("theta must lie in [0, 1)");

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "tracker/filters/gains/order.hpp"
+
 namespace ghtrack {
 namespace {
 
 void require(bool condition, const char* what) {
   if (!condition) throw std::invalid_argument(what);
 }
-
-void require_order(int order) { require(order >= 0 && order <= 2, "order must be 0, 1 or 2"); }
 
 /// The zero of an increasing function on (0, 1), to the last bit.
 template <class Function>

@@ -35,6 +35,35 @@ TEST(TrackingIndex, GivesTheGainsOfTheConvergedKalmanFilter) {
   }
 }
 
+// Property: what settled_prediction finds does not change in another step, in any units and from
+// gains that hardly follow to gains that do nothing else.
+TEST(SettledPrediction, StaysWhatItIs) {
+  for (double index = 1e-6; index < 1e4; index *= 10.0) {
+    for (int order = 0; order <= 2; ++order) {
+      for (const double dt : {1e-3, 1.0, 3600.0}) {
+        for (const double sigma : {1e-6, 1.0, 1e5}) {
+          const double r = sigma * sigma;
+          const AxisCovariance<double> q =
+              process_noise(ProcessModel::kRandomWalk, order,
+                            intensity_of_index(ProcessModel::kRandomWalk, index, sigma, dt), dt);
+          const AxisCovariance<double> p = settled_prediction(q, order, r, dt);
+          const double s = p.xx + r;
+          AxisCovariance<double> next =
+              extrapolated(corrected(p, {p.xx / s, p.xv / s, p.xa / s}, r), dt);
+          next += q;
+          EXPECT_NEAR(next.xx / p.xx, 1.0, 1e-8) << index << " order " << order;
+          if (order >= 1) {
+            EXPECT_NEAR(next.vv / p.vv, 1.0, 1e-8) << index << " order " << order;
+          }
+          if (order >= 2) {
+            EXPECT_NEAR(next.aa / p.aa, 1.0, 1e-8) << index << " order " << order;
+          }
+        }
+      }
+    }
+  }
+}
+
 // Property: every λ gives stable gains that grow with it, without a gap where Cardano's formula
 // has no real root (λ > 20.785).
 TEST(TrackingIndex, GivesStableGrowingGainsFromTinyToHuge) {

@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sim/portable_math.hpp"
+#include "tests/sim/scenario.hpp"
+
+// Trains that meet others on their track, and brakes that act car by car.
+
+namespace ghtrack {
+namespace {
+
+/// Cars of 10 m that nothing holds back.
+Train free_train(int cars, double mass, double speed, std::vector<DrivePhase> drive = {}) {
+  Train train = single_car(0.0, speed, std::move(drive));
+  train.cars = cars;
+  train.car_length = 10.0;
+  train.mass = mass;
+  train.rotating_mass = 1.0;
+  train.davis_a = train.davis_b = train.davis_c = 0.0;
+  train.curve_resistance = 0.0;
+  train.track_every_car = true;
+  train.couplers = Couplers{1e7, 0.0, 0.0};
+  return train;
+}
+
+double energy(const TruthSnapshot& truth, const std::vector<double>& masses) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    sum += 0.5 * masses[i] * truth.objects[i].velocity.squaredNorm();
+  }
+  return sum;
+}
+
+// Derived: cars that couple go on together with m₁ v / (m₁ + m₂), and their springs have taken
+// ½ v² m₁ m₂ / (m₁ + m₂) once they are at rest; they touch after gap / v.
+TEST(Shunting, CouplesByMomentum) {
+  Train train = free_train(2, 100e3, 2.0);
+  train.couplers->damping = 2e5;
+  train.ahead = {CarsAhead{30.0, 3, 20e3, 0.0, true}};
+  WorldConfig config = world_of({target_of(train)});
+  config.record.events = true;
+  World world(config, 1);
+  const std::vector<double> masses{50e3, 50e3, 20e3, 20e3, 20e3};
+  const double begun = energy(world.sample(0.0), masses);
+  const TruthSnapshot truth = world.sample(40.0);
+  ASSERT_EQ(truth.objects.size(), 5u);
+  const double common = 100.0 * 2.0 / 160.0;
+  for (const TruthState& car : truth.objects) EXPECT_NEAR(car.velocity.x(), common, 1e-4);
+  EXPECT_NEAR(begun - energy(truth, masses), 0.5 * 4.0 * 100e3 * 60e3 / 160e3, 50.0);
+  ASSERT_EQ(world.events().size(), 1u);
+  EXPECT_EQ(world.events()[0].kind, EventKind::kCoupling);
+  EXPECT_NEAR(world.events()[0].time, 10.0, 1e-6);
+  // The train's cars stay behind, the others in their order ahead.
+  EXPECT_NEAR(truth.objects[0].position.x() - truth.objects[1].position.x(), 10.0, 1e-3);
+  EXPECT_NEAR(truth.objects[4].position.x() - truth.objects[0].position.x(), 10.0, 1e-3);
+  EXPECT_NEAR(truth.objects[2].position.x() - truth.objects[4].position.x(), 20.0, 1e-3);
+}
+
+// Derived: without damping and couplings, buffers give all back: v₁' = (m₁ − m₂)/(m₁ + m₂) v and
+// v₂' = 2 m₁/(m₁ + m₂) v, after a contact of π √(μ/k) with μ = m₁ m₂/(m₁ + m₂).
+TEST(Shunting, BuffersElastically) {
+  Train train = free_train(1, 60e3, 1.5);
+  train.ahead = {CarsAhead{25.0, 1, 20e3, 0.0, false}};
+  World world(world_of({target_of(train)}), 1);
+  const double reduced = 15e3;
+  const double contact = portable::kPi * std::sqrt(reduced / 1e7);
+  EXPECT_NEAR(world.sample(10.0 - 1e-3).objects[0].velocity.x(), 1.5, 1e-9);
+  const TruthSnapshot middle = world.sample(10.0 + 0.5 * contact);
+  EXPECT_NEAR(middle.objects[1].position.x() - middle.objects[0].position.x(),
+              10.0 - 1.5 * std::sqrt(reduced / 1e7), 1e-6);
+  const TruthSnapshot after = world.sample(10.0 + contact + 1e-3);
+  EXPECT_NEAR(after.objects[0].velocity.x(), 0.75, 1e-5);
+  EXPECT_NEAR(after.objects[1].velocity.x(), 2.25, 1e-5);
+}
+
+// Derived: an undamped buffer stop is pressed in by v √(m/k) and throws a car back with its speed.
+TEST(Shunting, EndsAtABufferStop) {
+  Train train = free_train(1, 40e3, 2.0);
+  train.buffer_stop = BufferStop{25.0, 4e6, 0.0};
+  World world(world_of({target_of(train)}), 1);
+  const double deepest = 2.0 * std::sqrt(0.01);
+  EXPECT_NEAR(state_at(world, 10.0 + 0.5 * portable::kPi * 0.1).position.x(), 20.0 + deepest, 1e-6);
+  EXPECT_NEAR(state_at(world, 10.0 + portable::kPi * 0.1 + 0.01).velocity.x(), -2.0, 1e-5);
+}
+
+// Derived: of a rigid train of n cars those brake that the pipe has reached, after 0, L/c, 2L/c, …:
+// v(t) = v − (b/n) Σ B(t − i L/c), with B(s) = s²/2r while the brake builds up and s − r/2 then; with the locomotive's brake alone b m₁/m.
+TEST(Shunting, BrakesCarByCar) {
+  Train train = free_train(5, 100e3, 20.0, {phase_at(1.0, Brake{})});
+  train.couplers.reset();
+  train.track_every_car = false;
+  train.service_brake = 0.5;
+  train.service_brake_build_up = 0.4;
+  train.brake_pipe_speed = 20.0;  // slow, to be seen: 0.5 s from car to car
+  World world(world_of({target_of(train)}), 1);
+  for (const double time : {1.2, 1.7, 2.6, 5.0}) {
+    double lost = 0.0;
+    for (int i = 0; i < 5; ++i) {
+      const double since = std::max(0.0, time - 1.0 - 0.5 * i);
+      lost += 0.1 * (since < 0.4 ? since * since / 0.8 : since - 0.2);
+    }
+    EXPECT_NEAR(state_at(world, time).velocity.x(), 20.0 - lost, 1e-9) << time;
+  }
+  train.brake_pipe_speed.reset();
+  train.leading_mass = 60e3;
+  train.drive = {phase_at(1.0, Brake{BrakeKind::kLocomotive})};
+  World alone(world_of({target_of(train)}), 1);
+  EXPECT_NEAR(state_at(alone, 11.0).velocity.x(), 20.0 - 0.5 * 0.6 * 9.8, 1e-9);
+}
+
+/// The run-in of sprung cars that brake one after the other, written out: Euler steps of 5 µs.
+std::vector<double> run_in_by_hand(double until) {
+  constexpr double kStep = 5e-6;
+  std::vector<double> place{0.0, -10.0, -20.0, -30.0};
+  std::vector<double> speed(4, 15.0);
+  for (double time = 0.0; time < until; time += kStep) {
+    std::vector<double> rate(4, 0.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double since = time - 0.1 * static_cast<double>(i);
+      rate[i] -= 0.8 * std::clamp(since / 0.5, 0.0, 1.0);
+      if (i == 0) continue;
+      const double stretch = place[i - 1] - place[i] - 10.0;
+      if (std::abs(stretch) <= 0.02) continue;
+      const double pull = 1e7 * (stretch - std::copysign(0.02, stretch)) +
+                          1e5 * (speed[i - 1] - speed[i]);
+      rate[i - 1] -= pull / 25e3;
+      rate[i] += pull / 25e3;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      speed[i] += kStep * rate[i];
+      place[i] += kStep * speed[i];
+    }
+  }
+  return place;
+}
+
+// Derived: the run-in of a train whose brakes act first at its head, against that integration.
+TEST(Shunting, RunsInWhenTheHeadBrakesFirst) {
+  Train train = free_train(4, 100e3, 15.0, {phase_at(0.0, Brake{})});
+  train.couplers = Couplers{1e7, 1e5, 0.02};
+  train.service_brake = 0.8;
+  train.service_brake_build_up = 0.5;
+  train.brake_pipe_speed = 100.0;
+  World world(world_of({target_of(train)}), 1);
+  for (const double time : {0.3, 0.9, 2.0}) {
+    const std::vector<double> wanted = run_in_by_hand(time);
+    const TruthSnapshot truth = world.sample(time);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(truth.objects[i].position.x(), wanted[i], 5e-4) << time;
+    }
+  }
+  // It runs in: the last car comes up by more than the play.
+  World again(world_of({target_of(train)}), 1);
+  double shortest = 30.0;
+  for (int i = 0; i < 100; ++i) {
+    const TruthSnapshot truth = again.sample(0.02 * i);
+    shortest = std::min(shortest,
+                        truth.objects[0].position.x() - truth.objects[3].position.x());
+  }
+  EXPECT_LT(shortest, 30.0 - 3.0 * 0.02);
+}
+
+// Property: the driver keeps the limits, from the place where they begin until the last car has left,
+// and takes no longer than he must: the speed before is that of the braking he plans with.
+TEST(Shunting, KeepsSpeedLimits) {
+  for (const DriveCommand& command :
+       {DriveCommand(TargetSpeed{30.0}), DriveCommand(Traction{1.0}),
+        DriveCommand(Accelerate{0.4})}) {
+    Train train = free_train(5, 200e3, 30.0, {phase_at(0.0, command)});
+    train.couplers.reset();
+    train.track_every_car = false;
+    train.service_brake = 0.5;
+    train.speed_limits = {SpeedLimit{2000.0, 2300.0, 10.0}, SpeedLimit{2000.0, 9000.0, 25.0}};
+    World world(world_of({target_of(train)}), 1);
+    bool was_slow = false;
+    for (int i = 0; i < 2400; ++i) {
+      const TruthState state = state_at(world, 0.1 * i);
+      const double place = state.position.x();
+      if (place >= 2000.0 && place <= 2340.0) {
+        EXPECT_LT(state.velocity.x(), 10.2) << place;
+        was_slow = true;
+      }
+      if (place >= 2000.0 && place <= 9000.0) {
+        EXPECT_LT(state.velocity.x(), 25.2) << place;
+      }
+      if (place > 1400.0 && place < 2000.0) {
+        const double planned = std::sqrt(100.0 + 2.0 * 0.45 * (2000.0 - place));
+        EXPECT_GT(state.velocity.x(), std::min(28.0, planned - 1.0)) << place;
+      }
+    }
+    EXPECT_TRUE(was_slow);
+    EXPECT_GT(state_at(world, 240.0).position.x(), 2800.0);
+  }
+}
+
+}  // namespace
+}  // namespace ghtrack
