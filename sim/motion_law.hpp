@@ -23,6 +23,7 @@ struct MotionLaw {
   std::function<Matrix(double)> transition;  // F over a time [s]
   std::function<Matrix(double)> noise;       // Q over a time [s]
   bool holds_alone = false;                  // and not where others may push the object
+  bool takes_any_start = false;              // other velocities on both axes do what F says
 };
 
 /// Motion under forces that are known, without noise: F of constant velocity. It is as random as its

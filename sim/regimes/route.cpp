@@ -271,6 +271,32 @@ std::span<const Route> Route::presets() {
   return rows;
 }
 
+std::optional<MotionLaw> Route::law(const EnvironmentConfig&) const {
+  using Matrix = MotionLaw::Matrix;
+  if (const auto* white = std::get_if<WhiteAcceleration>(&process_noise.model)) {
+    Matrix a = Matrix::Zero(4, 4), w = Matrix::Zero(4, 4);
+    for (int axis = 0; axis < 2; ++axis) {
+      a(axis, 2 + axis) = 1.0;
+      w(2 + axis, 2 + axis) = white->spectral_density;
+    }
+    return driven(a, w);
+  }
+  if (const auto* singer = std::get_if<SingerAcceleration>(&process_noise.model)) {
+    const double variance = singer->sigma * singer->sigma;
+    Matrix a = Matrix::Zero(6, 6), w = Matrix::Zero(6, 6), start = Matrix::Zero(6, 6);
+    for (int axis = 0; axis < 2; ++axis) {
+      a(axis, 2 + axis) = a(2 + axis, 4 + axis) = 1.0;
+      a(4 + axis, 4 + axis) = -1.0 / singer->time;
+      w(4 + axis, 4 + axis) = 2.0 * variance / singer->time;
+      start(4 + axis, 4 + axis) = variance;
+    }
+    MotionLaw law = driven(a, w);
+    law.start = start;
+    return law;
+  }
+  return std::nullopt;
+}
+
 void Route::shift(const Vec2& by) {
   position += by;
   for (RouteLeg& leg : legs) {

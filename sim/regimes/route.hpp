@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/motion_law.hpp"
 #include "sim/process_noise.hpp"
 #include "sim/regimes/motion.hpp"
 #include "sim/regimes/rail_line.hpp"
@@ -146,6 +147,8 @@ struct Route {
 
   void shift(const Vec2& by);
   void hasten(const Vec2& by);
+  /// That of its process noise, along x and y; not of turns, whose noise is not linear.
+  std::optional<MotionLaw> law(const EnvironmentConfig& environment) const;
   std::string_view unreleasable() const { return "nothing can release what follows a route"; }
 
   /// What cannot be driven, and why.

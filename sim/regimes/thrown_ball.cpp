@@ -102,6 +102,7 @@ std::optional<MotionLaw> ThrownBall::law(const EnvironmentConfig& environment) c
   if (juggle || !is_empty) return std::nullopt;
   MotionLaw law = drifting();
   law.holds_alone = true;
+  law.takes_any_start = true;
   return law;
 }
 

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
 
 #include "tools/experiment/engine.hpp"
 #include "tools/experiment/labelled_objects.hpp"
-#include "tools/experiment/seen_alike.hpp"
 #include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr int kTheoryRuns = static_cast<int>(SharedTruth::kMostKept);
+constexpr int kTheoryRuns = 200;
 constexpr int kRunsOfOneTruth = 25;
 constexpr std::size_t kGridSide = 20;  // of a gain surface
 constexpr std::size_t kTheoryScans = 60'000;  // of all runs
@@ -128,17 +128,16 @@ class ExampleRecorder final : public RunObserver {
 };
 
 /// Those of the objects that belong to a regime.
-ObjectsOfRuns objects_of(const std::vector<LabelledObject>& objects, const Subject& regime) {
-  ObjectsOfRuns chosen;
-  for (const LabelledObject& object : objects) {
-    if (belongs_to(object.id, regime)) chosen.push_back(&object);
-  }
+std::vector<LabelledObject> objects_of(const std::vector<LabelledObject>& objects,
+                                      const Subject& regime) {
+  std::vector<LabelledObject> chosen;
+  std::copy_if(objects.begin(), objects.end(), std::back_inserter(chosen),
+               [&](const LabelledObject& object) { return belongs_to(object.id, regime); });
   return chosen;
 }
 
-GainSurface surface_of(const Trial& trial, const std::string& regime, const ObjectsOfRuns& objects,
-                       int jobs) {
-  const std::vector<SeenAlike> alike = seen_alike(objects);
+GainSurface surface_of(const Trial& trial, const std::string& regime,
+                       const std::vector<LabelledObject>& objects, int jobs) {
   GainSurface surface{.regime = regime, .g = {}, .h = {}, .rmse = {}, .best = {}, .marks = {}};
   for (std::size_t i = 0; i < kGridSide; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(kGridSide - 1);
@@ -148,13 +147,13 @@ GainSurface surface_of(const Trial& trial, const std::string& regime, const Obje
   surface.rmse.resize(kGridSide * kGridSide);
   in_parallel(surface.rmse.size(), jobs, [&](std::size_t i) {
     const Gains gains = Gains::of_gh(surface.g[i / kGridSide], surface.h[i % kGridSide]);
-    Mean squares;
+    SquaredErrors sum;
     if (is_stable(gains)) {
       const GainFilter<2> filter =
           plain_filter(gains, trial.scoring().sigma, trial.scoring().period);
-      for (const SeenAlike& group : alike) squares += group.expected_squares(filter);
+      for (const LabelledObject& object : objects) sum += expected_errors(filter, object);
     }
-    surface.rmse[i] = or_nan(squares.root());
+    surface.rmse[i] = or_nan(sum.position.root());
   });
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < surface.rmse.size(); ++i) {
@@ -171,42 +170,38 @@ GainSurface surface_of(const Trial& trial, const std::string& regime, const Obje
 
 }  // namespace
 
-LabelledRuns theory_runs(const Trial& trial, int first_run, int runs, int jobs,
-                         const std::function<RunTruth(int)>& truth_of) {
-  const int some = std::min(runs, truth_is_fixed(trial.scene()) ? kRunsOfOneTruth : kTheoryRuns);
-  const std::vector<ObjectId> wanted =
-      some_objects(trial, kTheoryScans / static_cast<std::size_t>(some));
-  LabelledRuns labelled(static_cast<std::size_t>(some));
-  in_parallel(labelled.size(), jobs, [&](std::size_t i) {
-    const int run = first_run + static_cast<int>(i);
-    labelled[i] = labelled_objects(trial, run, truth_of(run), wanted);
-  });
-  return labelled;
+int theory_runs(const WorldScene& scene, int runs) {
+  return std::min(runs, truth_is_fixed(scene) ? kRunsOfOneTruth : kTheoryRuns);
 }
 
-std::vector<SubjectTheory> theory_of(const Trial& trial, const LabelledRuns& runs, int jobs) {
-  const std::vector<std::optional<RandomMotion>> motions =
-      random_motions(trial.scene(), Runs::kMany);
+std::vector<SubjectTheory> theory_of(const Trial& trial, const SharedTruth& truth, int first_run,
+                                     int runs, int jobs) {
+  const int some = theory_runs(trial.scene(), runs);
+  const std::vector<ObjectId> wanted =
+      some_objects(trial, kTheoryScans / static_cast<std::size_t>(some));
+  std::vector<std::vector<LabelledObject>> of_runs(static_cast<std::size_t>(some));
+  in_parallel(of_runs.size(), jobs, [&](std::size_t i) {
+    const int run = first_run + static_cast<int>(i);
+    of_runs[i] = labelled_objects(trial, run, truth.of_run(run, false), wanted);
+  });
   // The only object of a scene is all of its regime and of the scene, too.
   const std::vector<Subject>& subjects = trial.subjects();
-  const auto first_like = [&](std::size_t i) {
-    const auto same = std::find_if(
-        subjects.begin(), subjects.end(),
-        [&](const Subject& other) { return other.objects == subjects[i].objects; });
-    return static_cast<std::size_t>(same - subjects.begin());
+  const auto same_objects = [&](std::size_t i) {
+    return std::find_if(subjects.begin(), subjects.end(), [&](const Subject& other) {
+             return other.objects == subjects[i].objects;
+           }) - subjects.begin();
   };
+  const std::vector<std::optional<RandomMotion>> motions =
+      random_motions(trial.scene(), Runs::kMany);
   std::vector<SubjectTheory> theory(subjects.size());
   in_parallel(theory.size(), jobs, [&](std::size_t i) {
-    if (first_like(i) < i) return;
+    if (same_objects(i) < static_cast<std::ptrdiff_t>(i)) return;
     ObjectsOfRuns objects;
     TruthSums sums;
-    std::size_t scans = 0;
-    for (const std::vector<LabelledObject>& run : runs) {
-      if (scans > kTheoryScans) break;
+    for (const std::vector<LabelledObject>& run : of_runs) {
       for (const LabelledObject& object : run) {
         if (!belongs_to(object.id, subjects[i])) continue;
         objects.push_back(&object);
-        scans += object.scans.size();
         sums.add(object);
       }
     }
@@ -214,7 +209,9 @@ std::vector<SubjectTheory> theory_of(const Trial& trial, const LabelledRuns& run
     theory[i].hindsight = in_hindsight(objects, trial.scene().sensors, motions, trial.scoring(),
                                        [&] { trial.step(); });
   });
-  for (std::size_t i = 0; i < theory.size(); ++i) theory[i] = theory[first_like(i)];
+  for (std::size_t i = 0; i < theory.size(); ++i) {
+    theory[i] = theory[static_cast<std::size_t>(same_objects(i))];
+  }
   return theory;
 }
 
@@ -224,7 +221,7 @@ std::vector<GainSurface> gain_surfaces(const Trial& trial, const RunTruth& truth
   std::vector<GainSurface> surfaces;
   for (const Subject& subject : trial.subjects()) {
     if (subject.regime.empty() || !subject.object.empty()) continue;
-    const ObjectsOfRuns own = objects_of(objects, subject);
+    const std::vector<LabelledObject> own = objects_of(objects, subject);
     if (!own.empty()) surfaces.push_back(surface_of(trial, subject.regime, own, jobs));
   }
   return surfaces;

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "tools/experiment/comparison.hpp"
 #include "tools/experiment/hindsight.hpp"
-#include "tools/experiment/labelled_objects.hpp"
 #include "tools/experiment/trial.hpp"
 
 namespace ghtrack {
@@ -18,16 +16,13 @@ struct SubjectTheory {
   Hindsight hindsight;
 };
 
-/// Theory for all subjects of a cell, over runs of it.
+/// Theory for all subjects of a cell, over runs of it. Of swarms only some objects are looked at.
 /// @param jobs  threads; the outcome does not depend on them
-std::vector<SubjectTheory> theory_of(const Trial& trial, const LabelledRuns& runs, int jobs);
+std::vector<SubjectTheory> theory_of(const Trial& trial, const SharedTruth& truth, int first_run, int runs, int jobs);
 
-/// What theory goes through: of so many runs at most 200, or where they have one truth a few, which
-/// differ in missed detections alone; of swarms some objects.
-/// @param truth_of  of a run
-/// @param jobs      threads; the outcome does not depend on them
-LabelledRuns theory_runs(const Trial& trial, int first_run, int runs, int jobs,
-                         const std::function<RunTruth(int)>& truth_of);
+/// Over how many of so many runs theory goes: all of them, or where they have one truth a few, which
+/// differ in missed detections alone.
+int theory_runs(const WorldScene& scene, int runs);
 
 /// The expected RMSE of position over a grid of g and h, for each regime, on run 0.
 /// @param jobs  threads; the outcome does not depend on them

@@ -102,8 +102,8 @@ Campaign read_campaign(std::span<const std::string> files, const CampaignOptions
       cell.scene.compare.sweep.clear();
       if (!options.filters.empty()) {
         cell.scene.compare.filters = options.filters;
-        cell.scene.compare.order.clear();
         cell.scene.compare.tuned.clear();
+        cell.scene.compare.order.clear();
       }
       if (options.runs > 0) cell.scene.compare.runs = options.runs;
       cell.file = file;

@@ -238,18 +238,16 @@ class CellReduction {
   ResultColumns values_;
 };
 
-CellOutcome outcome_of(const CampaignCell& cell, const SharedTruth& truth, const Results& results,
+CellOutcome outcome_of(const CampaignCell& cell, const SharedTruth& truths, const Results& results,
                        std::size_t index, int jobs, const std::function<void()>& on_step) {
   const Trial trial(cell.scene, on_step);
-  const RunTruth first = truth.of_run(0, true);
-  const LabelledRuns runs =
-      theory_runs(trial, 0, cell.runs(), jobs, [&](int run) { return truth.of_run(run, false); });
+  const RunTruth truth = truths.of_run(0, true);
   const CellReduction reduction(trial, results.columns(index));
   CellOutcome outcome;
   for (const Contender& contender : trial.contenders()) {
     outcome.contenders.push_back(contender.name);
   }
-  outcome.rows = reduction.rows(theory_of(trial, runs, jobs), jobs);
+  outcome.rows = reduction.rows(theory_of(trial, truths, 0, cell.runs(), jobs), jobs);
   outcome.cell = {.scene = cell.scene.name,
                   .file = cell.file,
                   .sweep = cell.sweep,
@@ -287,13 +285,13 @@ void renumber(CellOutcome& outcome, std::vector<std::string>& filters) {
 
 Comparison compare(const Campaign& campaign, std::span<const CellGroup> groups,
                    const Results& results, int jobs, const std::function<void()>& on_step) {
-  std::vector<const SharedTruth*> truth(campaign.cells.size());
-  for (const CellGroup& group : groups) {
-    for (const std::size_t cell : group.cells) truth[cell] = group.truth.get();
-  }
   std::vector<CellOutcome> outcomes(campaign.cells.size());
+  std::vector<const SharedTruth*> truths(campaign.cells.size());
+  for (const CellGroup& group : groups) {
+    for (const std::size_t cell : group.cells) truths[cell] = group.truth.get();
+  }
   in_parallel(outcomes.size(), jobs, [&](std::size_t i) {
-    outcomes[i] = outcome_of(campaign.cells[i], *truth[i], results, i, jobs, on_step);
+    outcomes[i] = outcome_of(campaign.cells[i], *truths[i], results, i, jobs, on_step);
   });
   Comparison comparison;
   for (CellOutcome& outcome : outcomes) {

@@ -128,8 +128,7 @@ struct Comparison {
 };
 
 /// Averages the results of a campaign and sets theory beside them.
-/// @param groups   the campaign's cells by their truth, as for compute(): what that has recorded is
-///                 gone through again
+/// @param groups   the campaign's cells by their truth
 /// @param results  of all runs
 /// @param jobs     threads; the outcome does not depend on them
 /// @param on_step  called again and again by all threads; may throw to give up

@@ -7,8 +7,8 @@
 #include <variant>
 
 #include "tools/experiment/engine.hpp"
+#include "tools/experiment/even_objects.hpp"
 #include "tools/experiment/gain_search.hpp"
-#include "tools/experiment/seen_alike.hpp"
 #include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/axis_covariance.hpp"
 #include "tracker/filters/gains/rules.hpp"
@@ -17,8 +17,8 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::infinity();
-constexpr double kDiffuse = 100.0;  // a start's uncertainty, in sigmas per period
-constexpr double kMostLooks = 20'000.0;        // at all objects of a run
+constexpr double kDiffuse = 100.0;             // a start's uncertainty, in sigmas per period
+constexpr double kMostLooks = 20'000.0;  // at all objects of a run
 constexpr std::size_t kMostSmoothed = 20'000;  // scans
 constexpr std::size_t kMostShadowed = 4'000;   // with errors of all kinds
 
@@ -32,17 +32,21 @@ class Judge {
  public:
   Judge(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
         const RunMetricsOptions& scoring, const std::function<void()>& on_step)
-      : objects_(objects), sensors_(sensors), scoring_(scoring), on_step_(on_step) {
-    design_ = best_sensor(sensors);
+      : objects_(objects), sensors_(sensors), scoring_(scoring), on_step_(on_step),
+        design_(best_sensor(sensors)) {
     for (const SensorConfig& sensor : sensors) {
       const auto* position = std::get_if<PositionSensor>(&sensor.model);
       const auto parts = error_parts(sensor);
       errors_.push_back(parts.value_or(std::vector<ErrorPart>{}));
       has_variance_ = has_variance_ && parts;
-      is_plain_ = is_plain_ && position != nullptr && position->bias.isZero() && !sensor.student_dof &&
-                  sensor.outlier_probability == 0.0;
+      is_plain_ = is_plain_ && position != nullptr && position->bias.isZero() &&
+                  !sensor.student_dof && sensor.outlier_probability == 0.0;
     }
-    if (is_plain_) alike_ = seen_alike(objects);
+    if (is_plain_) {
+      even_ = EvenObjects::among(objects_, others_);
+    } else {
+      others_.assign(objects_.begin(), objects_.end());
+    }
   }
 
   bool has_variance() const { return has_variance_; }
@@ -51,13 +55,15 @@ class Judge {
   double expected(const GainFilter<2>& filter) const {
     on_step_();
     Mean squares;
-    for (const SeenAlike& group : alike_) squares += group.expected_squares(filter);
-    if (!is_plain_) {
-      std::size_t scans = 0;
-      for (const LabelledObject* object : objects_) {
-        squares += expected_errors(filter, *object, sensors_, errors_).position;
-        if ((scans += object->scans.size()) > kMostShadowed) break;
+    if (even_) squares += even_->expected_error(filter);
+    std::size_t scans = 0;
+    for (const LabelledObject* object : others_) {
+      if (is_plain_) {
+        squares += expected_errors(filter, *object).position;
+        continue;
       }
+      squares += expected_errors(filter, *object, sensors_, errors_).position;
+      if ((scans += object->scans.size()) > kMostShadowed) break;
     }
     return squares.root().value_or(kNoValue);
   }
@@ -103,8 +109,14 @@ class Judge {
     config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
     config.initial_acceleration = config.initial_speed / scoring_.period;
     Mean squares;
+    if (even_) {
+      squares += even_->smoothed_error(Order,
+                                       process_noise(ProcessModel::kPiecewiseConstant, Order,
+                                                     noise.process_noise, scoring_.period),
+                                       {0.0, config.initial_speed, config.initial_acceleration});
+    }
     std::size_t scans = 0;
-    for (const LabelledObject* object : objects_) {
+    for (const LabelledObject* object : others_) {
       squares += smoothed_errors(config, scoring_, *object).position;
       if ((scans += object->scans.size()) > kMostSmoothed) break;
     }
@@ -122,11 +134,12 @@ class Judge {
   const ObjectsOfRuns& objects_;
   std::span<const SensorConfig> sensors_;
   const RunMetricsOptions& scoring_;
-  SensorTraits design_;  // that filters are made for
   const std::function<void()>& on_step_;
+  SensorTraits design_;  // that filters are made for
   std::vector<std::vector<ErrorPart>> errors_;
-  bool is_plain_ = true;  // errors are what detections tell
-  std::vector<SeenAlike> alike_;  // if so
+  std::optional<EvenObjects> even_;            // go through a filter together,
+  std::vector<const LabelledObject*> others_;  // one by one
+  bool is_plain_ = true;
   bool has_variance_ = true;
 };
 
@@ -188,11 +201,13 @@ Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfi
   found.crlb = posterior_bound(objects, sensors, motions);
   constexpr int kIndices = 7;
   constexpr int kSections = 2;
-  const double least = std::min(
-      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<1>(at); })
-          .cost,
-      least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) { return judge.smoothed_error<2>(at); })
-          .cost);
+  const double least =
+      std::min(least_cost_of_number(1e-4, 1e2, kIndices, kSections,
+                                    [&](double at) { return judge.smoothed_error<1>(at); })
+                   .cost,
+               least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) {
+                 return judge.smoothed_error<2>(at);
+               }).cost);
   if (std::isfinite(least)) found.smoother = least;
   return found;
 }
@@ -210,7 +225,8 @@ void add_hindsight(RunReport& report, const std::vector<LabelledObject>& objects
                    const WorldScene& scene, const std::function<void()>& on_step) {
   const std::vector<std::optional<RandomMotion>> motions = random_motions(scene, Runs::kOne);
   in_parallel(objects.size(), 2, [&](std::size_t i) {
-    const Hindsight found = in_hindsight({&objects[i]}, scene.sensors, motions, report.options, on_step);
+    const Hindsight found =
+        in_hindsight({&objects[i]}, scene.sensors, motions, report.options, on_step);
     ObjectReport& object = report.objects[static_cast<std::size_t>(objects[i].id)];
     object.best_fixed_gains = found.best_fixed_gains;
     object.crlb = found.crlb;

@@ -121,6 +121,7 @@ std::vector<std::optional<RandomMotion>> random_motions(const WorldScene& scene,
     if (is_noisy && runs == Runs::kMany && !scene.compare.fresh_wind) continue;
     if (runs == Runs::kMany && scene.compare.launch) {
       const LaunchScatter& scatter = *scene.compare.launch;
+      if (scatter.velocity > 0.0 && !law->takes_any_start) continue;
       for (int axis = 0; axis < 2; ++axis) {
         law->start(axis, axis) += scatter.position * scatter.position;
         law->start(2 + axis, 2 + axis) += scatter.velocity * scatter.velocity;

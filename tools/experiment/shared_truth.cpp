@@ -36,9 +36,7 @@ SharedTruth::SharedTruth(const WorldScene& scene, std::function<void()> on_step)
     : scene_(truth_only(scene)),
       on_step_(std::move(on_step)),
       instants_(scan_instants(scene)),
-      objects_(spell_out(scene.targets).size()) {
-  keep_within(0.0);
-}
+      objects_(spell_out(scene.targets).size()) {}
 
 void SharedTruth::add(const WorldScene& scene) {
   const std::vector<double> own = scan_instants(scene);
@@ -48,13 +46,10 @@ void SharedTruth::add(const WorldScene& scene) {
   instants_ = std::move(all);
 }
 
-void SharedTruth::keep_within(double bytes, int first_run) {
-  first_run_ = first_run;
-  const double runs = bytes / std::max(1.0, recorded_bytes(objects_, instants_.size()));
-  const std::size_t places =
-      truth_is_fixed(scene_) ? 1 : static_cast<std::size_t>(std::min<double>(runs, kMostKept));
-  kept_.clear();
-  while (kept_.size() < places) kept_.push_back(std::make_unique<Kept>());
+bool SharedTruth::stays(int run) const {
+  const int place = run - first_run_;
+  return place >= 0 && place < kKeptRuns &&
+         recorded_bytes(objects_, instants_.size()) * (place + 1) <= room_;
 }
 
 RunTruth SharedTruth::of_run(int run, bool is_reused) const {
@@ -64,10 +59,9 @@ RunTruth SharedTruth::of_run(int run, bool is_reused) const {
     SimulatedTruth simulated(make_world);
     return std::make_shared<const TruthRecording>(record(simulated, instants_, on_step_));
   };
-  const std::size_t place =
-      truth_is_fixed(scene_) ? 0 : static_cast<std::size_t>(std::max(0, run - first_run_));
-  if (place < kept_.size() && (run >= first_run_ || truth_is_fixed(scene_))) {
-    Kept& kept = *kept_[place];
+  const bool is_fixed = truth_is_fixed(scene_);
+  if (is_fixed || stays(run)) {
+    Kept& kept = kept_[is_fixed ? 0 : static_cast<std::size_t>(run - first_run_)];
     std::call_once(kept.made, [&] { kept.recording = recorded(); });
     return RunTruth(kept.recording);
   }
@@ -91,7 +85,7 @@ std::vector<CellGroup> groups_by_truth(const Campaign& campaign,
     groups[found->second].cells.push_back(i);
   }
   for (CellGroup& group : groups) {
-    group.truth->keep_within(kRoom / static_cast<double>(groups.size()), first_run);
+    group.truth->set_room(kRoom / static_cast<double>(groups.size()), first_run);
   }
   return groups;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -32,9 +33,9 @@ class RunTruth {
 /// noise only. Constant operations are safe to use from several threads.
 class SharedTruth {
  public:
-  /// Recordings of so many runs at most, the first ones, stay for whoever asks for them later: theory
-  /// goes through as many.
-  static constexpr std::size_t kMostKept = 200;
+  /// Recordings of so many runs, the first ones, stay for whoever asks for them later, such as
+  /// theory; as many as there is room for.
+  static constexpr int kKeptRuns = 200;
 
   /// @param on_step  called at each instant that is recorded; may throw to give up
   explicit SharedTruth(
@@ -43,28 +44,33 @@ class SharedTruth {
   /// Makes room for the scans of another scene with the same truth.
   void add(const WorldScene& scene);
 
-  /// Lets recordings of the first runs stay, as many as have room in so many bytes. Before that, and
-  /// before add(), nobody may have asked for a run.
-  /// @param first_run  that may stay
-  void keep_within(double bytes, int first_run = 0);
+  /// @param bytes      that recordings which stay may take; others are made anew
+  /// @param first_run  that may stay, instead of run 0
+  void set_room(double bytes, int first_run = 0) {
+    room_ = bytes;
+    first_run_ = first_run;
+  }
 
   /// The truth of a run: recorded if all runs have it in common, if it stays, or if it is to be gone
   /// through more than once; and if it fits into memory.
   RunTruth of_run(int run, bool is_reused) const;
 
  private:
+  bool stays(int run) const;
+
   WorldScene scene_;  // with nothing but what the truth depends on
   std::function<void()> on_step_;
   std::vector<double> instants_;  // of the scans of all scenes [s]
   std::size_t objects_;
+  double room_ = 0.0;  // [B]
+  int first_run_ = 0;
 
   /// A recording that is made when somebody first asks for it.
   struct Kept {
     std::once_flag made;
     std::shared_ptr<const TruthRecording> recording;
   };
-  std::vector<std::unique_ptr<Kept>> kept_;  // from first_run_ on; of all runs in the first place
-  int first_run_ = 0;
+  mutable std::array<Kept, kKeptRuns> kept_;  // of the first runs; of all runs in the first place
 };
 
 /// The cells of a campaign that share a truth.

@@ -438,7 +438,8 @@ Tuning tune(const WorldScene& scene, const TuningOptions& options,
   const Trial trial(scene, on_step);
   const LabelledRuns training = labelled_runs(trial, kFirstTuningRun, options);
   const LabelledRuns judging = labelled_runs(trial, kFirstJudgingRun, options);
-  const std::vector<SubjectTheory> theory = theory_of(trial, judging, options.jobs);
+  const std::vector<SubjectTheory> theory =
+      theory_of(trial, trial.truth(), kFirstJudgingRun, options.runs, options.jobs);
 
   std::vector<std::size_t> regimes;  // among the subjects
   for (std::size_t i = 0; i < trial.subjects().size(); ++i) {

@@ -14,7 +14,6 @@
 #include "tools/experiment/comparison.hpp"
 #include "tools/experiment/gain_search.hpp"
 #include "tools/experiment/hindsight.hpp"
-#include "tools/experiment/seen_alike.hpp"
 #include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {
@@ -126,7 +125,6 @@ TEST(Bounds, OfFixedGainsAreTheLeastOfTheStableRegion) {
     for (const auto& run : runs) objects.push_back(&run.front());
     const Hindsight hindsight =
         in_hindsight(objects, trial.scene().sensors, {}, trial.scoring(), [] {});
-    const std::vector<SeenAlike> alike = seen_alike(objects);
     Stream stream(1, Purpose::kGeneration, 3, 0);
     double least = 1e300;
     for (int i = 0; i < 3000; ++i) {
@@ -136,9 +134,10 @@ TEST(Bounds, OfFixedGainsAreTheLeastOfTheStableRegion) {
                                      : stable_gains(order).at(std::span(p).first(order == 1 ? 2U : 3U));
       ASSERT_TRUE(is_stable(gains));
       Mean squares;
-      for (const SeenAlike& group : alike) {
-        squares += group.expected_squares(
-            plain_filter(gains, trial.scoring().sigma, trial.scoring().period));
+      for (const LabelledObject* object : objects) {
+        squares += expected_errors(plain_filter(gains, trial.scoring().sigma, trial.scoring().period),
+                                   *object)
+                       .position;
       }
       least = std::min(least, *squares.root());
     }

@@ -7,7 +7,6 @@
 #include "sim/random.hpp"
 #include "tests/tools/experiment/sample_campaign.hpp"
 #include "tools/experiment/gain_search.hpp"
-#include "tools/experiment/seen_alike.hpp"
 #include "tracker/filters/gains/rules.hpp"
 
 namespace ghtrack {
@@ -42,39 +41,6 @@ TEST(ExpectedErrors, AreTheMeanOfMeasuredOnes) {
   const double error = std::sqrt((squares / 300.0 - mean * mean) / 300.0);
   EXPECT_NEAR(mean, expected, 4.0 * error);
   EXPECT_GT(expected, 0.0);
-}
-
-// Property: objects that are seen alike are judged together as they are one by one, with misses, two
-// sensors of different accuracy on each axis, and gains that follow the covariance.
-TEST(SeenAlike, AreJudgedTogetherAsOneByOne) {
-  std::vector<LabelledObject> objects(3);
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    for (int scan = 0; scan < 60; ++scan) {
-      ObjectScan& seen = objects[i].scans.emplace_back();
-      seen.time = 0.1 * scan + (scan % 3 == 1 ? 0.03 : 0.0);
-      const double t = seen.time;
-      const double a = 1.0 + static_cast<double>(i);
-      seen.truth.position = {a * t * t, 4.0 * std::sin(a * t)};
-      if (scan % 7 == 5 || (i == 2 && scan == 20)) continue;
-      seen.detection.emplace();
-      seen.detection->covariance = Vec2(0.3, scan % 3 == 1 ? 2.0 : 0.4).asDiagonal();
-    }
-  }
-  const std::vector<SeenAlike> alike = seen_alike({&objects[0], &objects[1], &objects[2]});
-  EXPECT_EQ(alike.size(), 2U);
-  const GainFilter<2> filters[] = {
-      plain_filter(Gains::of_ghk(0.5, 0.2, 0.02), 0.5, 0.1),
-      std::get<GainFilter<2>>(make_filter(
-          GhConfig{.design = gain_design::TrackingIndex<1>{.process_noise = 3.0}}, 0.5, 0.1))};
-  for (const GainFilter<2>& filter : filters) {
-    Mean together, one_by_one;
-    for (const SeenAlike& group : alike) together += group.expected_squares(filter);
-    for (const LabelledObject& object : objects) {
-      one_by_one += expected_errors(filter, object).position;
-    }
-    EXPECT_EQ(together.weight(), one_by_one.weight());
-    EXPECT_NEAR(*together.value(), *one_by_one.value(), 1e-9 * *one_by_one.value());
-  }
 }
 
 /// One object whose acceleration is new and random at every scan (σ_w), seen with σ = 1 at T = 1:

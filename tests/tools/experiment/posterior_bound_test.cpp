@@ -129,6 +129,13 @@ TEST(RandomMotions, AreThoseWhoseLawIsKnown) {
   EXPECT_FALSE(has_bound(ball + other, scattered, Runs::kMany)) << "they may meet";
   EXPECT_FALSE(has_bound(ball, scattered, Runs::kMany, "{}")) << "drag is not linear";
   EXPECT_FALSE(has_bound(ball, scattered, Runs::kMany, "{air: {density: 0}, ground: {height: -9}}"));
+  const std::string route =
+      "{name: a, route: {position: [0, 0], speed: 9, process_noise: {";
+  EXPECT_TRUE(has_bound(route + "model: singer, sigma: 1}}}", "{runs: 5, fresh_wind: true}", Runs::kMany));
+  EXPECT_TRUE(has_bound(route + "model: constant-velocity, spectral_density: 1}}}", "{runs: 5}", Runs::kOne));
+  EXPECT_FALSE(has_bound(route + "model: constant-velocity, spectral_density: 1}}}", "{runs: 5}", Runs::kMany))
+      << "all runs have the same draw";
+  EXPECT_FALSE(has_bound(route + "model: coordinated-turn, turn_rate_deg: 1}}}", "{runs: 5}", Runs::kOne));
   EXPECT_FALSE(has_bound("{name: a, train: {stock: ideal, speed: 20}}", "{runs: 5}", Runs::kMany));
   EXPECT_FALSE(has_bound("{name: a, balloon: {position: [0, 9]}}", "{runs: 5, fresh_wind: true}",
                          Runs::kMany, "{wind: {turbulence: {model: ornstein-uhlenbeck}}}"));
