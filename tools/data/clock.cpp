@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <ctime>
 
@@ -19,6 +20,7 @@ class Cursor {
   explicit Cursor(std::string_view text) : rest_(text) {}
 
   bool at_end() const { return rest_.empty(); }
+  std::string_view rest() const { return rest_; }
 
   bool take(char c) {
     if (rest_.empty() || rest_.front() != c) return false;
@@ -30,6 +32,24 @@ class Cursor {
     if (!rest_.starts_with(word)) return false;
     rest_.remove_prefix(word.size());
     return true;
+  }
+
+  bool is_at(char c) const { return !rest_.empty() && rest_.front() == c; }
+
+  /// The same in letters of any size.
+  bool take_word(std::string_view word) {
+    if (rest_.size() < word.size()) return false;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      const auto is = static_cast<unsigned char>(rest_[i]);
+      if (std::tolower(is) != std::tolower(static_cast<unsigned char>(word[i]))) return false;
+    }
+    rest_.remove_prefix(word.size());
+    return true;
+  }
+
+  std::optional<int> one_or_two_digits() {
+    if (const auto two = digits(2)) return two;
+    return digits(1);
   }
 
   /// A number of exactly so many digits.
@@ -78,22 +98,88 @@ std::int64_t days_of(int year, int month, int day) {
          719468;
 }
 
-std::optional<std::int64_t> take_date(Cursor& cursor) {
+/// Days since 1970 of a date, if there is such a day.
+std::optional<std::int64_t> checked_days(int year, int month, int day) {
+  constexpr std::array<int, 12> kDays = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  if (month < 1 || month > 12) return std::nullopt;
+  if (day < 1 || day > kDays[static_cast<std::size_t>(month - 1)]) return std::nullopt;
+  return days_of(year, month, day);
+}
+
+/// A month by its English name or the first three letters of it.
+std::optional<int> take_month(Cursor& cursor) {
+  constexpr std::array<std::string_view, 12> kMonths = {
+      "January", "February", "March",     "April",   "May",      "June",
+      "July",    "August",   "September", "October", "November", "December"};
+  for (std::size_t i = 0; i < kMonths.size(); ++i) {
+    if (cursor.take_word(kMonths[i]) || cursor.take_word(kMonths[i].substr(0, 3))) {
+      return static_cast<int>(i) + 1;
+    }
+  }
+  return std::nullopt;
+}
+
+/// 2024-06-11, 2024/06/11 or 20240611.
+std::optional<std::int64_t> take_year_first(Cursor& cursor) {
   const auto year = cursor.digits(4);
   if (!year) return std::nullopt;
   const char joint = cursor.take('-') ? '-' : cursor.take('/') ? '/' : '\0';
   const auto month = cursor.digits(2);
-  if (!month || *month < 1 || *month > 12) return std::nullopt;
-  if (joint != '\0' && !cursor.take(joint)) return std::nullopt;
+  if (!month || (joint != '\0' && !cursor.take(joint))) return std::nullopt;
   const auto day = cursor.digits(2);
-  constexpr std::array<int, 12> kDays = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  if (!day || *day < 1 || *day > kDays[static_cast<std::size_t>(*month - 1)]) return std::nullopt;
-  return days_of(*year, *month, *day);
+  return day ? checked_days(*year, *month, *day) : std::nullopt;
+}
+
+/// 11.06.2024, 11/6/2024, 11-Jun-2024, or 6/11/2024.
+std::optional<std::int64_t> take_year_last(Cursor& cursor, DateOrder order) {
+  const auto first = cursor.one_or_two_digits();
+  if (!first) return std::nullopt;
+  const char joint = cursor.take('.')   ? '.'
+                     : cursor.take('/') ? '/'
+                     : cursor.take('-') ? '-'
+                     : cursor.take(' ') ? ' '
+                                        : '\0';
+  if (joint == '\0') return std::nullopt;
+  const auto named = take_month(cursor);
+  const bool needs_name = joint == '-' || joint == ' ';
+  const auto second = named || needs_name ? named : cursor.one_or_two_digits();
+  if (!second || !cursor.take(joint)) return std::nullopt;
+  const auto year = cursor.digits(4);
+  if (!year) return std::nullopt;
+  const bool month_first = order == DateOrder::kMonthFirst && joint == '/' && !named;
+  return month_first ? checked_days(*year, *first, *second) : checked_days(*year, *second, *first);
+}
+
+std::optional<std::int64_t> take_date(Cursor& cursor, DateOrder order) {
+  Cursor ahead = cursor;
+  if (const auto days = take_year_first(ahead)) {
+    cursor = ahead;
+    return days;
+  }
+  return take_year_last(cursor, order);
+}
+
+/// Makes the hour of a clock with twelve hours one of 24, if AM or PM follows.
+bool take_half_of_day(Cursor& cursor, int& hour) {
+  Cursor ahead = cursor;
+  ahead.take(' ');
+  const bool before_noon = ahead.take_word("AM");
+  if (!before_noon && !ahead.take_word("PM")) return true;
+  if (hour < 1 || hour > 12) return false;
+  hour = hour % 12 + (before_noon ? 0 : 12);
+  cursor = ahead;
+  return true;
 }
 
 std::optional<double> take_time(Cursor& cursor) {
-  const auto hour = cursor.digits(2);
-  if (!hour || *hour > 24) return std::nullopt;
+  auto hour = cursor.digits(2);
+  if (!hour) {
+    Cursor ahead = cursor;
+    hour = ahead.digits(1);
+    if (!hour || !ahead.is_at(':')) return std::nullopt;
+    cursor = ahead;
+  }
+  if (*hour > 24) return std::nullopt;
   const bool colon = cursor.take(':');
   const auto minute = cursor.digits(2);
   if (!minute || *minute > 59) return std::nullopt;
@@ -108,6 +194,7 @@ std::optional<double> take_time(Cursor& cursor) {
       return std::nullopt;
     }
   }
+  if (!take_half_of_day(cursor, *hour)) return std::nullopt;
   return *hour * 3600.0 + *minute * 60.0 + seconds;
 }
 
@@ -135,9 +222,9 @@ std::optional<double> take_zone(Cursor& cursor) {
 
 }  // namespace
 
-std::optional<std::int64_t> parse_date(std::string_view text) {
+std::optional<std::int64_t> parse_date(std::string_view text, DateOrder order) {
   Cursor cursor(text);
-  const auto days = take_date(cursor);
+  const auto days = take_date(cursor, order);
   return cursor.at_end() ? days : std::nullopt;
 }
 
@@ -149,13 +236,51 @@ std::optional<double> parse_time_of_day(std::string_view text) {
   return *seconds - *zone;
 }
 
-std::optional<double> parse_date_time(std::string_view text) {
+namespace {
+
+/// "Tue Jun 11 09:30:15 GMT+02:00 2024", as Java and C write dates: the weekday and the zone may be
+/// missing.
+std::optional<double> parse_worded_date_time(std::string_view text) {
   Cursor cursor(text);
-  const auto days = take_date(cursor);
+  for (const std::string_view day : {"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"}) {
+    if (cursor.take_word(day)) break;
+  }
+  cursor.take(',');
+  cursor.take(' ');
+  const auto month = take_month(cursor);
+  if (!month || !cursor.take(' ')) return std::nullopt;
+  cursor.take(' ');
+  const auto day = cursor.one_or_two_digits();
+  if (!day || !cursor.take(' ')) return std::nullopt;
+  const auto time = take_time(cursor);
+  const std::size_t year_at = text.rfind(' ');
+  if (!time || year_at == std::string_view::npos) return std::nullopt;
+  Cursor last(text.substr(year_at + 1));
+  const auto year = last.digits(4);
+  const auto days = year && last.at_end() ? checked_days(*year, *month, *day) : std::nullopt;
   if (!days) return std::nullopt;
+  std::string_view zone_text = cursor.rest();
+  zone_text = zone_text.substr(0, zone_text.rfind(' '));
+  if (zone_text.starts_with(' ')) zone_text.remove_prefix(1);
+  Cursor zone_cursor(zone_text);
+  if (zone_text.size() > 3 && !zone_cursor.take("GMT")) zone_cursor.take("UTC");
+  const auto zone = take_zone(zone_cursor);
+  if (!zone || !zone_cursor.at_end()) return std::nullopt;
+  return static_cast<double>(*days) * kDay - *zone + *time;
+}
+
+}  // namespace
+
+std::optional<double> parse_date_time(std::string_view text, DateOrder order) {
+  Cursor cursor(text);
+  const auto days = take_date(cursor, order);
+  if (!days) return parse_worded_date_time(text);
   const double midnight = static_cast<double>(*days) * kDay;
   if (cursor.at_end()) return midnight;
-  if (!cursor.take('T') && !cursor.take('t') && !cursor.take(' ')) return std::nullopt;
+  if (!cursor.take('T') && !cursor.take('t')) {
+    cursor.take(',');
+    if (!cursor.take(' ')) return std::nullopt;
+  }
   const auto time = take_time(cursor);
   const auto zone = time ? take_zone(cursor) : std::nullopt;
   if (!zone || !cursor.at_end()) return std::nullopt;
@@ -181,9 +306,14 @@ Clock::Clock(const std::optional<Unit>& unit, std::string_view first, char point
   if (!number && parse_time_of_day(first)) {
     kind_ = Kind::kTimeOfDay;
     meaning_ = "time of day";
-  } else if (!number && parse_date_time(first)) {
+  } else if (!number && (parse_date_time(first) || parse_date_time(first, DateOrder::kMonthFirst))) {
     kind_ = Kind::kDateTime;
-    meaning_ = "ISO 8601, as s since 1970";
+    if (!parse_date_time(first)) order_ = DateOrder::kMonthFirst;
+    const bool year_first = first.size() >= 4 && first.find_first_not_of("0123456789") >= 4;
+    meaning_ = year_first ? "ISO 8601, as s since 1970"
+               : first.find('/') == std::string_view::npos ? "dates, as s since 1970"
+               : order_ == DateOrder::kDayFirst            ? "day/month/year, as s since 1970"
+                                                           : "month/day/year, as s since 1970";
   } else if (frame_rate) {
     scale_ = Scale::of_parts(*frame_rate);
     meaning_ = fmt::format("frames at {:g} Hz", *frame_rate);
@@ -206,7 +336,7 @@ Clock::Clock(const std::optional<Unit>& unit, std::string_view first, char point
 }
 
 std::optional<double> Clock::seconds(std::string_view time) const {
-  if (kind_ == Kind::kDateTime) return parse_date_time(time);
+  if (kind_ == Kind::kDateTime) return parse_date_time(time, order_);
   if (kind_ == Kind::kTimeOfDay) return parse_time_of_day(time);
   const std::optional<double> number = parse_number(time, point_);
   if (!number) return std::nullopt;

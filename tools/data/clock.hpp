@@ -9,18 +9,24 @@
 
 namespace ghtrack {
 
+/// What stands first in a date whose year stands last, such as 3/4/2024.
+enum class DateOrder { kDayFirst, kMonthFirst };
+
 /// Seconds since 1970-01-01T00:00:00 UTC of a date and time after ISO 8601:
 /// `2024-06-11T09:30:15.25+02:00`. T may be a blank, dashes may be slashes or missing in both parts,
 /// seconds may be missing, decimals may follow a comma, a zone may be Z, UTC, ±hh, ±hhmm or ±hh:mm;
-/// without one it is UTC. Absent if the text is anything else.
-std::optional<double> parse_date_time(std::string_view text);
+/// without one it is UTC. The date may also be `11.06.2024`, `11/06/2024` or, with the month first,
+/// `06/11/2024`, `11-Jun-2024`, or `Tue Jun 11 09:30:15 GMT+02:00 2024`; the time may be
+/// `9:30:15 AM`. Absent if the text is anything else.
+std::optional<double> parse_date_time(std::string_view text,
+                                      DateOrder order = DateOrder::kDayFirst);
 
-/// Seconds since midnight of `hh:mm[:ss[.fff]]`. Absent if the text is anything else.
+/// Seconds since midnight of `h:mm[:ss[.fff]] [AM|PM]`. Absent if the text is anything else.
 std::optional<double> parse_time_of_day(std::string_view text);
 
-/// Days since 1970-01-01 of `yyyy-mm-dd`, with dashes, slashes or nothing. Absent if it is anything
-/// else.
-std::optional<std::int64_t> parse_date(std::string_view text);
+/// Days since 1970-01-01 of a date in one of the forms above. Absent if the text is anything else.
+std::optional<std::int64_t> parse_date(std::string_view text,
+                                       DateOrder order = DateOrder::kDayFirst);
 
 /// The way back: `2024-06-11T07:30:15.250Z`, to the millisecond.
 std::string format_date_time(double seconds);
@@ -51,6 +57,7 @@ class Clock {
   enum class Kind { kNumber, kDateTime, kTimeOfDay };
 
   Kind kind_ = Kind::kNumber;
+  DateOrder order_ = DateOrder::kDayFirst;
   Scale scale_;
   char point_ = '.';
   std::string meaning_;

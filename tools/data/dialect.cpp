@@ -93,8 +93,14 @@ Dialect recognise_dialect(std::span<const std::string> lines) {
   if (lines.empty()) return dialect;
   const std::string_view first = trimmed(lines.front());
   constexpr std::array<char, 5> kSeparators = {';', '\t', '|', ',', ' '};
-  const auto found =
+  auto found =
       std::find_if(kSeparators.begin(), kSeparators.end(), [&](char c) { return separates(first, c); });
+  if (found == kSeparators.end() && lines.size() > 1) {  // a title, or one column
+    const std::string_view second = trimmed(lines[1]);
+    found = std::find_if(kSeparators.begin(), kSeparators.end(), [&](char c) {
+      return c != ' ' && separates(second, c) && !(c == ',' && has_decimal_comma(second));
+    });
+  }
   if (found == kSeparators.end()) {  // one column
     dialect.separator = ';';
     for (const std::string& line : lines.subspan(1)) {

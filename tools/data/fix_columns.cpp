@@ -9,6 +9,10 @@
 namespace ghtrack {
 namespace {
 
+// What ships say of their place when they do not know it (ITU-R M.1371).
+constexpr double kNoLatitude = 91.0;
+constexpr double kNoLongitude = 181.0;
+
 Scale scale_of(const Table& table, std::size_t column) {
   const auto& unit = table.headings()[column].unit;
   return unit && !unit->is_time ? Scale(unit->scale) : Scale();
@@ -17,6 +21,13 @@ Scale scale_of(const Table& table, std::size_t column) {
 std::string unit_of(const Table& table, std::size_t column) {
   const auto& unit = table.headings()[column].unit;
   return unit ? unit->name : "m";
+}
+
+/// Whether degrees come as whole numbers that no degrees could be: of 1e-7, as autopilots log them.
+bool is_in_tenths_of_microdegrees(const Table& table, std::size_t column) {
+  constexpr double kLeast = 1e5;
+  const auto first = parse_number(table.first_value(column), table.dialect().point);
+  return first && std::abs(*first) > kLeast && std::trunc(*first) == *first;
 }
 
 }  // namespace
@@ -33,6 +44,9 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
     origin_.reset();
     x_scale_ = scale_of(table, x_);
     y_scale_ = scale_of(table, y_);
+  } else if (is_in_tenths_of_microdegrees(table, x_) && is_in_tenths_of_microdegrees(table, y_)) {
+    is_whole_ = true;
+    x_scale_ = y_scale_ = Scale::of_parts(1e7);
   }
   const auto both = columns.find(Role::kSigma);
   sigma_x_ = columns.has(Role::kSigmaX) ? columns.find(Role::kSigmaX) : both;
@@ -50,13 +64,14 @@ std::optional<Fix> FixColumns::read(Table& table) {
   const auto time = time_.read(table);
   if (!time) return std::nullopt;
   Fix fix{.time = *time, .position = std::nullopt};
-  const auto x = table.number(x_);
-  const auto y = table.number(y_);
+  const auto x = coordinate(table, x_);
+  const auto y = coordinate(table, y_);
   if (!x || !y) {
     const bool x_missing = is_missing(table.cell(x_));
     const bool y_missing = is_missing(table.cell(y_));
-    if (!x && !x_missing) table.reject_cell(x_, "a finite number");
-    if (!y && !y_missing) table.reject_cell(y_, "a finite number");
+    const char* const wanted = geographic_ ? "a number of degrees" : "a finite number";
+    if (!x && !x_missing) table.reject_cell(x_, wanted);
+    if (!y && !y_missing) table.reject_cell(y_, wanted);
     if ((!x && !x_missing) || (!y && !y_missing)) return std::nullopt;
     return fix;
   }
@@ -64,7 +79,8 @@ std::optional<Fix> FixColumns::read(Table& table) {
     fix.position = Eigen::Vector2d(x_scale_(*x), y_scale_(*y));
     return fix;
   }
-  const GeoPoint point{.latitude = *y, .longitude = *x};
+  const GeoPoint point{.latitude = y_scale_(*y), .longitude = x_scale_(*x)};
+  if (point.latitude == kNoLatitude && point.longitude == kNoLongitude) return fix;
   if (!is_on_earth(point)) {
     table.reject(fmt::format("latitude {} and longitude {} are no point of the earth", *y, *x));
     return std::nullopt;
@@ -72,6 +88,13 @@ std::optional<Fix> FixColumns::read(Table& table) {
   if (!origin_) origin_ = point;
   fix.position = to_metres(*origin_, point);
   return fix;
+}
+
+/// A number; of degrees also one with minutes and seconds.
+std::optional<double> FixColumns::coordinate(const Table& table, std::size_t column) const {
+  const auto number = table.number(column);
+  if (number || !geographic_ || is_missing(table.cell(column))) return number;
+  return parse_degrees(table.cell(column), column == y_);
 }
 
 std::optional<Eigen::Vector2d> FixColumns::sigma(const Table& table) const {
@@ -86,7 +109,8 @@ std::string FixColumns::describe(const Table& table) const {
   const auto name = [&](std::size_t column) { return name_of_column(table, column); };
   std::string text = time_.describe(table);
   if (geographic_) {
-    text += fmt::format(", x and y in m from degrees in {} and {}", name(x_), name(y_));
+    text += fmt::format(", x and y in m from {}degrees in {} and {}", is_whole_ ? "1e-7 " : "",
+                        name(x_), name(y_));
     if (origin_) {
       text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin_->latitude,
                           origin_->longitude);

@@ -41,8 +41,11 @@ class FixColumns {
   TimeColumn time_;
   std::size_t x_ = 0, y_ = 0;
   std::optional<std::size_t> sigma_x_, sigma_y_;
+  std::optional<double> coordinate(const Table& table, std::size_t column) const;
+
   Scale x_scale_, y_scale_, sigma_x_scale_, sigma_y_scale_;
   bool geographic_ = false;
+  bool is_whole_ = false;  // degrees come as whole numbers of 1e-7, as autopilots log them
   std::optional<GeoPoint> origin_;
 };
 

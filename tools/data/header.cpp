@@ -60,10 +60,10 @@ constexpr std::array<Alias, 20> kAliases = {{
      "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc mass_a_y v"},
     {Role::kZ, "z value measurement measured reading position pos distance range height altitude "
                "data signal x"},
-    {Role::kLatitude, "lat latitude lat_deg latitude_deg gps_lat location_lat breite"},
+    {Role::kLatitude, "lat latitude lat_deg latitude_deg gps_lat location_lat breite breitengrad geographische_breite"},
     {Role::kLongitude,
      "lon long lng longitude lon_deg longitude_deg gps_lon gps_long location_long "
-     "location_lon laenge"},
+     "location_lon laenge länge längengrad laengengrad geographische_länge"},
     {Role::kIdentity,
      "id truth_id track_id object_id target_id trackid objectid mmsi icao24 icao hex vehicle_id "
      "name"},
@@ -87,7 +87,7 @@ struct UnitName {
   double scale;
   bool is_time;
 };
-constexpr std::array<UnitName, 15> kUnits = {{
+constexpr std::array<UnitName, 16> kUnits = {{
     {"s sec secs second seconds", 1.0, true},
     {"ms msec millisecond milliseconds", 1e-3, true},
     {"us µs μs usec microsecond microseconds", 1e-6, true},
@@ -96,6 +96,7 @@ constexpr std::array<UnitName, 15> kUnits = {{
     {"h hr hour hours", 3600.0, true},
     {"m meter meters metre metres", 1.0, false},
     {"mm millimeter millimeters millimetre millimetres", 1e-3, false},
+    {"um µm μm micron microns micrometer micrometre", 1e-6, false},
     {"cm centimeter centimeters centimetre centimetres", 1e-2, false},
     {"km kilometer kilometers kilometre kilometres", 1e3, false},
     {"ft foot feet", 0.3048, false},
@@ -245,6 +246,42 @@ std::vector<ColumnChoice> parse_column_choices(std::string_view text) {
   return choices;
 }
 
+namespace {
+
+/// The last word of a heading, where it says what "Ort x" and "Latest: Time" are; empty where words
+/// before it say that it is something else, such as a velocity.
+std::string_view telling_word(std::string_view base) {
+  constexpr std::string_view kOthers =
+      "v vel velocity speed geschwindigkeit a acc accel acceleration beschleunigung gyro omega "
+      "angular force kraft mag size sigma std error err residual offset start end delta d min max";
+  const std::size_t last = base.find_last_of("_:");
+  if (last == std::string_view::npos) return {};
+  std::string_view before = base.substr(0, last);
+  while (!before.empty()) {
+    const std::size_t end = before.find_first_of("_:");
+    const std::string_view word = before.substr(0, end);
+    if (any_word(kOthers, [&](std::string_view other) { return other == word; })) return {};
+    before.remove_prefix(end == std::string_view::npos ? before.size() : end + 1);
+  }
+  return base.substr(last + 1);
+}
+
+/// The only column whose last word is one of these.
+std::optional<std::size_t> column_telling(std::string_view words,
+                                          const std::vector<Heading>& headings) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    const std::string_view told = telling_word(headings[i].base);
+    if (told.empty() || is_alias(headings[i].base)) continue;
+    if (!any_word(words, [&](std::string_view word) { return word == told; })) continue;
+    if (found) return std::nullopt;
+    found = i;
+  }
+  return found;
+}
+
+}  // namespace
+
 ColumnMap::ColumnMap(const std::vector<Heading>& headings,
                      const std::vector<ColumnChoice>& choices) {
   for (const ColumnChoice& choice : choices) {
@@ -273,6 +310,13 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
       }
       return false;
     });
+  }
+  for (const auto& [role, words] :
+       {std::pair(Role::kTime, "t time zeit"), std::pair(Role::kX, "x"), std::pair(Role::kY, "y"),
+        std::pair(Role::kLatitude, "lat latitude"),
+        std::pair(Role::kLongitude, "lon long longitude")}) {
+    if (has(role)) continue;
+    if (const auto column = column_telling(words, headings)) columns_.emplace_back(role, *column);
   }
 }
 

@@ -1,7 +1,9 @@
 #include "tools/data/place.hpp"
 
 #include <GeographicLib/AzimuthalEquidistant.hpp>
+#include <GeographicLib/DMS.hpp>
 #include <cmath>
+#include <string>
 
 namespace ghtrack {
 
@@ -19,6 +21,20 @@ GeoPoint to_degrees(const GeoPoint& origin, const Eigen::Vector2d& position) {
   projection.Reverse(origin.latitude, origin.longitude, position.x(), position.y(),
                      point.latitude, point.longitude);
   return point;
+}
+
+std::optional<double> parse_degrees(std::string_view text, bool is_latitude) {
+  using GeographicLib::DMS;
+  if (text.find_first_of("0123456789") == std::string_view::npos) return std::nullopt;
+  try {
+    DMS::flag direction = DMS::NONE;
+    const double degrees = DMS::Decode(std::string(text), direction);
+    const DMS::flag other = is_latitude ? DMS::LONGITUDE : DMS::LATITUDE;
+    if (direction == other || !std::isfinite(degrees)) return std::nullopt;
+    return degrees;
+  } catch (const GeographicLib::GeographicErr&) {
+    return std::nullopt;
+  }
 }
 
 bool is_on_earth(const GeoPoint& point) {

@@ -31,7 +31,8 @@ std::string_view without_comment_sign(std::string_view line) {
 }
 
 bool is_value(std::string_view cell, char point) {
-  return parse_number(cell, point) || parse_date_time(cell) || parse_time_of_day(cell);
+  return parse_number(cell, point) || parse_date_time(cell) ||
+         parse_date_time(cell, DateOrder::kMonthFirst) || parse_time_of_day(cell);
 }
 
 std::int64_t characters(std::string_view text) {
@@ -71,6 +72,14 @@ void join_date_and_time(std::vector<std::string_view>& cells) {
   }
 }
 
+/// What a row of headings must have to be one: a time and a place.
+bool is_telling(const std::vector<Heading>& headings) {
+  const ColumnMap map(headings, {});
+  const bool in_plane = map.has(Role::kX) && map.has(Role::kY);
+  const bool on_earth = map.has(Role::kLatitude) && map.has(Role::kLongitude);
+  return (map.has(Role::kTime) || map.has(Role::kFrame)) && (in_plane || on_earth);
+}
+
 TextInput open_input(const std::string& path, const std::function<void()>& pause) {
   if (auto text = points_as_csv(path)) return TextInput(path, *std::move(text));
   return TextInput(path, pause);
@@ -87,10 +96,28 @@ Table::Table(const std::string& path, const ReadOptions& options)
   try {
     std::vector<ColumnChoice> choices = parse_column_choices(options_.columns);
     if (!options_.time_column.empty()) choices.push_back({Role::kTime, options_.time_column});
+    take_units_of(choices);
     columns_ = ColumnMap(headings_, choices);
   } catch (const ColumnError& error) {
     findings_.add(sample_.empty() ? 0 : sample_.front().number, error.what());
     findings_.throw_if_any();
+  }
+}
+
+/// `t=timestamp[us]` says the unit of a column that does not.
+void Table::take_units_of(std::vector<ColumnChoice>& choices) {
+  for (ColumnChoice& choice : choices) {
+    if (column(choice.column)) continue;
+    const Heading wanted = parse_heading(choice.column);
+    if (!wanted.unit || !choice.column.ends_with(']')) continue;
+    choice.column.erase(choice.column.rfind('['));
+    for (std::size_t i = 0; i < headings_.size(); ++i) {
+      if (headings_[i].text == choice.column || headings_[i].base == wanted.base ||
+          std::to_string(i + 1) == choice.column) {
+        headings_[i].unit = wanted.unit;
+        break;
+      }
+    }
   }
 }
 
@@ -138,7 +165,9 @@ void Table::find_header(const std::string& last_comment) {
   if (has_header_) {
     for (const std::string_view cell : cells_) headings_.push_back(parse_heading(cell));
     first_row_ = 1;
-    if (take_units_row()) first_row_ = 2;
+    if (options_.columns.empty()) take_title_rows();
+    while (first_row_ < sample_.size() && repeats_header(sample_[first_row_].text)) ++first_row_;
+    if (take_units_row()) ++first_row_;
     return;
   }
   const std::size_t count = cells_.size();
@@ -159,11 +188,50 @@ void Table::find_header(const std::string& last_comment) {
   }
 }
 
-/// Takes the second row for the units of the columns if it holds nothing but units.
+/// Where the first row says nothing of the columns, a row of headings below it may: above it are
+/// titles, as the names of objects in a program for videos.
+bool Table::take_title_rows() {
+  constexpr std::size_t kMostTitles = 8;
+  try {
+    if (is_telling(headings_)) return false;
+    for (std::size_t row = 1; row < std::min(sample_.size(), kMostTitles); ++row) {
+      split_cells(sample_[row].text, dialect_.separator, cells_, owned_);
+      if (is_value(cells_.front(), dialect_.point)) return false;
+      std::vector<Heading> below;
+      for (const std::string_view cell : cells_) below.push_back(parse_heading(cell));
+      if (!is_telling(below)) continue;
+      headings_ = std::move(below);
+      first_row_ = row + 1;
+      return true;
+    }
+  } catch (const ColumnError&) {  // a column that is there twice: not for this to say
+  }
+  return false;
+}
+
+/// Whether a row below the header is one again: times and places are named where they are.
+bool Table::repeats_header(const std::string& line) {
+  std::vector<std::string_view> cells;
+  split_cells(line, dialect_.separator, cells, owned_);
+  if (cells.size() != headings_.size()) return false;
+  std::vector<Heading> again;
+  for (const std::string_view cell : cells) again.push_back(parse_heading(cell));
+  try {
+    const ColumnMap map(headings_, {});
+    const ColumnMap repeated(again, {});
+    return repeated.has(Role::kX) && repeated.has(Role::kY) &&
+           repeated.find(Role::kX) == map.find(Role::kX) &&
+           repeated.find(Role::kY) == map.find(Role::kY);
+  } catch (const ColumnError&) {
+    return false;
+  }
+}
+
+/// Takes the row below the header for the units of the columns if it holds nothing but units.
 bool Table::take_units_row() {
-  if (sample_.size() < 2) return false;
+  if (first_row_ >= sample_.size()) return false;
   std::vector<std::string_view> units;
-  split_cells(sample_[1].text, dialect_.separator, units, owned_);
+  split_cells(sample_[first_row_].text, dialect_.separator, units, owned_);
   if (units.size() != headings_.size()) return false;
   std::vector<Heading> with_units = headings_;
   bool any = false;
@@ -172,9 +240,9 @@ bool Table::take_units_row() {
     const bool bracketed = units[i].front() == '(' || units[i].front() == '[';
     const Heading heading =
         parse_heading("x " + (bracketed ? std::string(units[i]) : fmt::format("({})", units[i])));
-    if (!heading.unit) return false;
+    if (!heading.unit && !bracketed) return false;  // "(quality)" is none that is known
     with_units[i].unit = heading.unit;
-    any = true;
+    any = any || heading.unit.has_value();
   }
   if (any) headings_ = std::move(with_units);
   return any;

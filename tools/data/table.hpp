@@ -92,9 +92,12 @@ class Table {
   };
 
   void take_sample();
+  void take_units_of(std::vector<ColumnChoice>& choices);
   void find_header(const std::string& last_comment);
   void find_first_values();
+  bool take_title_rows();
   bool take_units_row();
+  bool repeats_header(const std::string& line);
   std::optional<std::string_view> next_line();
   void split_row(std::string_view line);
 

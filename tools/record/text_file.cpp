@@ -117,6 +117,13 @@ void check_text(const std::filesystem::path& path, std::string_view text) {
   }
 }
 
+/// Whether a character shows, and leaves the order of its neighbours alone.
+bool shows(char32_t code) {
+  const bool turns = (code >= 0x200B && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
+                     (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF;
+  return !schema::is_control(code) && !turns;
+}
+
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -270,11 +277,14 @@ std::optional<std::int64_t> parse_whole(std::string_view text) {
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string result = "'";
-  for (const char c : text.substr(0, kMost)) {
-    result +=
-        static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) < 0x7f ? c : '?';
+  std::size_t count = 0;
+  while (!text.empty() && count++ < kMost) {
+    const auto character = schema::first_character(text);
+    const std::size_t size = character ? character->size : 1;
+    result += character && shows(character->code) ? text.substr(0, size) : "?";
+    text.remove_prefix(size);
   }
-  return result + (text.size() > kMost ? "…'" : "'");
+  return result + (text.empty() ? "'" : "…'");
 }
 
 }  // namespace ghtrack

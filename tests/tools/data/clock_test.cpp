@@ -13,11 +13,15 @@ TEST(DateTime, MeansTheSameInEveryDialect) {
   for (const char* text :
        {"2024-06-11T07:30:15Z", "2024-06-11 07:30:15", "2024-06-11T09:30:15+02:00",
         "2024-06-11T02:00:15-0530", "2024/06/11 07:30:15.000", "20240611T073015Z",
-        "2024-06-11T07:30:15,0UTC", "2024-06-11T16:30:15+09"}) {
+        "2024-06-11T07:30:15,0UTC", "2024-06-11T16:30:15+09", "11.06.2024 07:30:15",
+        "11/06/2024 07:30:15", "11.6.2024 7:30:15 AM", "11-Jun-2024 07:30:15.000",
+        "Tue Jun 11 09:30:15 GMT+02:00 2024", "Jun 11 07:30:15 2024"}) {
     SCOPED_TRACE(text);
     ASSERT_TRUE(parse_date_time(text).has_value());
     EXPECT_EQ(*parse_date_time(text), kSeconds);
   }
+  EXPECT_EQ(parse_date_time("6/11/2024 7:30:15 AM", DateOrder::kMonthFirst), kSeconds);
+  EXPECT_EQ(parse_date_time("11/06/2024 7:30:15 PM"), kSeconds + 12 * 3600.0);
   EXPECT_EQ(parse_date_time("2024-06-11T07:30:15.25Z"), kSeconds + 0.25);
   EXPECT_EQ(parse_date_time("1970-01-01"), 0.0);
   EXPECT_EQ(parse_date_time("1969-12-31T23:59:59Z"), -1.0);
@@ -29,7 +33,8 @@ TEST(DateTime, MeansTheSameInEveryDialect) {
 // Property: what is no date is none.
 TEST(DateTime, RefusesWhatIsNone) {
   for (const char* text : {"", "2024", "2024-13-01T00:00", "2024-06-11T25:00:00", "2024-06-11T07:61",
-                           "2024-06-11T07:30:15X", "2024-06-11T07:30:15+", "11.06.2024 07:30",
+                           "2024-06-11T07:30:15X", "2024-06-11T07:30:15+", "31.06.2024 07:30",
+                           "11.6/2024", "1-6-2024", "Tue Foo 11 07:30:15 2024", "13:00 PM",
                            "2024-06/11", "2024-06-11T07:30:15+02:00 ", "2024-06-11T07:30:"}) {
     EXPECT_FALSE(parse_date_time(text).has_value()) << text;
   }

@@ -84,6 +84,57 @@ TEST(ScanReader, UnderstandsUnitsAndAliases) {
             expected);
 }
 
+// Property: nor do dates as people write them, titles over the header, a header that comes again in
+// other words, words beside those that tell, or a unit that only an option names.
+TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
+  const std::string expected = "0/0: 1,2; 0.5/0: 1.5,2.5; ";
+  EXPECT_EQ(scans_of("mass_A\t\t\nt\tx\ty\n0\t1\t2\n0.5\t1.5\t2.5\n"), expected);
+  EXPECT_EQ(scans_of("LABEL,POSITION_X,POSITION_Y,POSITION_T\nLabel,X,Y,T\n"
+                     ",(micron),(micron),(sec)\nID1,1e6,2e6,0\nID2,1.5e6,2.5e6,0.5\n"),
+            expected);
+  EXPECT_EQ(scans_of("Latest: Time (s),Latest: X (m),Latest: Y (m)\n0,1,2\n0.5,1.5,2.5\n"),
+            expected);
+  EXPECT_EQ(scans_of("Zeit t / s;Ort x / m;Ort y / m;Geschwindigkeit v x\n0;1;2;7\n0,5;1,5;2,5;7\n"),
+            expected);
+  EXPECT_EQ(scans_of("timestamp,x,y\n0,1,2\n500000,1.5,2.5\n", {.columns = "t=timestamp[us]"}),
+            expected);
+  EXPECT_EQ(scans_of("# Timestamp,x,y\n01/01/1970 00:00:00,1,2\n01/01/1970 00:00:00.5,1.5,2.5\n"),
+            expected);
+  EXPECT_THAT(message_of("vel t,vel x,vel y\n0,1,2\n",
+                         [](const auto& path) { ScanReader reader(path.string()); }),
+              HasSubstr("column 'x' is missing"));
+}
+
+// Derived: 13/1 can only have the day first, 1/13 only the month; the first row decides for all.
+TEST(ScanReader, TakesTheOrderOfDatesFromTheFirst) {
+  EXPECT_EQ(scans_of("t,x,y\n13/01/1970,1,2\n14/01/1970,3,4\n"),
+            "1.0368e+06/0: 1,2; 1.1232e+06/0: 3,4; ");
+  EXPECT_EQ(scans_of("t,x,y\n01/13/1970,1,2\n01/14/1970,3,4\n"),
+            "1.0368e+06/0: 1,2; 1.1232e+06/0: 3,4; ");
+}
+
+// Property: degrees, minutes and seconds, and whole numbers of 1e-7 degrees, are the same places;
+// that a ship does not know where it is, is no place.
+TEST(ScanReader, ReadsDegreesInEveryForm) {
+  const auto last = [](const std::string& first, const std::string& second) {
+    const ScratchFolder folder;
+    ScanReader reader(
+        folder.write("in.csv", "t,lat,lon\n0," + first + "\n1," + second + "\n").string());
+    Scan scan;
+    reader.next(scan);
+    reader.next(scan);
+    return scan.detections.empty() ? Eigen::Vector2d(-1.0, -1.0) : scan.detections[0].position;
+  };
+  const Eigen::Vector2d expected = last("49.5,8.25", "49.501,8.251");
+  EXPECT_TRUE(last("49°30'00\"N,8°15'00\"E", "49°30'3.6\"N,8°15'3.6\"E").isApprox(expected, 1e-9));
+  EXPECT_TRUE(last("49°30.000'N,8°15.000'E", "49°30.060'N,8°15.060'E").isApprox(expected, 1e-9));
+  EXPECT_TRUE(last("495000000,82500000", "495010000,82510000").isApprox(expected, 1e-9));
+  EXPECT_EQ(last("49.5,8.25", "91,181"), Eigen::Vector2d(-1.0, -1.0));
+  EXPECT_THAT(message_of("t,lat,lon\n0,49°30'E,8°15'E\n",
+                         [](const auto& path) { ScanReader reader(path.string()); }),
+              HasSubstr("'49°30'E' in column 'lat' is not a number of degrees"));
+}
+
 // Property: any order of the rows gives the same scans, those of one time in the order of the file.
 TEST(ScanReader, SortsStably) {
   std::vector<std::string> rows;
