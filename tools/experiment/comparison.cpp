@@ -258,8 +258,8 @@ CellOutcome outcome_of(const CampaignCell& cell, const SharedTruth& truths, cons
                   .period = trial.scoring().period,
                   .regimes = trial.regimes(),
                   .curves = reduction.curves(),
-                  .example = example_of(trial, first),
-                  .surfaces = gain_surfaces(trial, first, jobs)};
+                  .example = example_of(trial, truth),
+                  .surfaces = gain_surfaces(trial, truth, jobs)};
   return outcome;
 }
 
