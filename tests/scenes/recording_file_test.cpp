@@ -72,7 +72,7 @@ TEST_F(RecordingFile, IsReadForOneObject) {
   ASSERT_EQ(recording_of(scene).places.size(), 2u);
   EXPECT_EQ(recording_of(scene).places[0].x, 5.0);
   EXPECT_EQ(refusal(table),
-            "walk.csv:3:1: error: the time 0.0 is not later than that of the row before, 0.0; of "
+            "walk.csv:3:1: error: the time 0 is not later than that of the row before, 0; of "
             "several objects in a table, `id` chooses one");
   EXPECT_EQ(refusal(table, "'7'"), "walk.csv: error: no row has the id '7'");
 }
@@ -84,7 +84,7 @@ TEST_F(RecordingFile, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(refusal("t,x,height\n0,1,2\n"),
             "walk.csv:1:1: error: no column is called y; columns: t, x, height");
   EXPECT_EQ(refusal("t,x,y\n0,1,2\n1,nan,2\n"),
-            "walk.csv:3:3: error: must be a number from -1000000.0 to 1000000.0; found 'nan'");
+            "walk.csv:3:3: error: must be a number from -1000000 to 1000000; found 'nan'");
   EXPECT_EQ(refusal("t,x,y\n0,1\n"), "walk.csv:2:1: error: has 2 cells; the header has more");
 }
 
