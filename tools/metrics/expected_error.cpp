@@ -6,6 +6,7 @@
 #include <numbers>
 #include <variant>
 
+#include "sim/portable_math.hpp"
 #include "sim/random.hpp"
 
 namespace ghtrack {
@@ -34,12 +35,14 @@ void extrapolate(Matrix6& p, double dt) {
   p.middleCols<2>(2) += dt * p.rightCols<2>();
 }
 
-/// (I − K H) P (I − K H)ᵀ + K R Kᵀ.
+/// (I − K H) P (I − K H)ᵀ + K R Kᵀ. H P is taken from the rows and P Hᵀ from the columns: were one
+/// the other's transpose, what rounding makes of the difference would grow by I + K H each time.
 void correct(Matrix6& p, const Gain& gain, const Eigen::Matrix2d& r) {
-  const Gain cross = p.leftCols<2>();
-  const Eigen::Matrix2d s = cross.topRows<2>() + r;
-  p -= gain * cross.transpose();
-  p -= cross * gain.transpose();
+  const Gain columns = p.leftCols<2>();
+  const Eigen::Matrix<double, 2, 6> rows = p.topRows<2>();
+  const Eigen::Matrix2d s = columns.topRows<2>() + r;
+  p -= gain * rows;
+  p -= columns * gain.transpose();
   p += (gain * s) * gain.transpose();
 }
 
@@ -253,9 +256,9 @@ double expected_length(const Vec2& mean, const Eigen::Matrix2d& covariance) {
   constexpr double kFarthest = 18.0;
   double sum = 0.0;
   for (double u = -kFarthest; u <= kFarthest; u += kStep) {
-    const double t = std::exp(u) / scale;
+    const double t = portable::exp(u) / scale;
     const Eigen::Array2d widened = 1.0 + 2.0 * t * variance;
-    const double kept = std::exp(-(t * squared / widened).sum()) / std::sqrt(widened.prod());
+    const double kept = portable::exp(-(t * squared / widened).sum()) / std::sqrt(widened.prod());
     sum += (1.0 - kept) / std::sqrt(t);
   }
   return sum * kStep / (2.0 * std::sqrt(std::numbers::pi));
