@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/metrics/power.hpp"
+
 namespace ghtrack {
 
 void BatchMeans::add(double value) {
@@ -27,7 +29,7 @@ std::optional<double> BatchMeans::batch_variance() const {
   for (int i = 0; i < batches_; ++i) centre += sums_[i] / length;
   centre /= batches_;
   double scatter = 0.0;
-  for (int i = 0; i < batches_; ++i) scatter += std::pow(sums_[i] / length - centre, 2);
+  for (int i = 0; i < batches_; ++i) scatter += power(sums_[i] / length - centre, 2.0);
   return scatter / (batches_ - 1);
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <variant>
 
+#include "sim/portable_math.hpp"
 #include "sim/random.hpp"
 
 namespace ghtrack {
@@ -259,9 +260,9 @@ double expected_length(const Vec2& mean, const Eigen::Matrix2d& covariance) {
   constexpr double kFarthest = 18.0;
   double sum = 0.0;
   for (double u = -kFarthest; u <= kFarthest; u += kStep) {
-    const double t = std::exp(u) / scale;
+    const double t = portable::exp(u) / scale;
     const Eigen::Array2d widened = 1.0 + 2.0 * t * variance;
-    const double kept = std::exp(-(t * squared / widened).sum()) / std::sqrt(widened.prod());
+    const double kept = portable::exp(-(t * squared / widened).sum()) / std::sqrt(widened.prod());
     sum += (1.0 - kept) / std::sqrt(t);
   }
   return sum * kStep / (2.0 * std::sqrt(std::numbers::pi));

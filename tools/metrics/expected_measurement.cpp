@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "sim/portable_math.hpp"
 #include "tools/metrics/quantiles.hpp"
 
 namespace ghtrack {
@@ -14,7 +15,7 @@ namespace {
 /// the factor λ = e^(−σ²/2); without that noise it is 1 / λ too long.
 Vec2 averaged(const Radar& radar, const Vec2& site, const Vec2& position) {
   const double sigma = radar.noise().bearing;
-  return site + std::exp(-0.5 * sigma * sigma) * (position - site);
+  return site + portable::exp(-0.5 * sigma * sigma) * (position - site);
 }
 Vec2 averaged(const auto&, const Vec2&, const Vec2& position) { return position; }
 

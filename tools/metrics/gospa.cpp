@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tools/metrics/best_pairs.hpp"
+#include "tools/metrics/power.hpp"
 
 namespace ghtrack {
 namespace {
@@ -34,7 +35,7 @@ GospaResult gospa(std::span<const Eigen::Vector2d> truth, std::span<const Eigen:
   // Distances are measured in cut-offs, so that no power overflows.
   const std::vector<Pair> pairs = close_pairs(truth, tracks, c);
   std::vector<Pair> costs = pairs;
-  for (Pair& pair : costs) pair.value = std::pow(pair.value / c, p);
+  for (Pair& pair : costs) pair.value = power(pair.value / c, p);
 
   GospaResult result;
   double localisation = 0.0;
@@ -51,13 +52,13 @@ GospaResult gospa(std::span<const Eigen::Vector2d> truth, std::span<const Eigen:
   const int at_cutoff = smaller - matched;
   const double missed = at_cutoff / 2.0 + (truths - smaller) / options.alpha;
   const double surplus = at_cutoff / 2.0 + (estimates - smaller) / options.alpha;
-  const double power = std::pow(c, p);
-  result.localisation = power * localisation;
-  result.missed = power * missed;
-  result.false_tracks = power * surplus;
-  result.gospa = c * std::pow(localisation + missed + surplus, 1.0 / p);
+  const double unit = power(c, p);
+  result.localisation = unit * localisation;
+  result.missed = unit * missed;
+  result.false_tracks = unit * surplus;
+  result.gospa = c * power(localisation + missed + surplus, 1.0 / p);
   if (larger > 0) {
-    result.ospa = c * std::pow((localisation + (larger - matched)) / larger, 1.0 / p);
+    result.ospa = c * power((localisation + (larger - matched)) / larger, 1.0 / p);
   }
   return result;
 }

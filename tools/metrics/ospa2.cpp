@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/metrics/best_pairs.hpp"
+#include "tools/metrics/power.hpp"
 
 namespace ghtrack {
 
@@ -56,12 +57,12 @@ double Ospa2::result() const {
     const std::int64_t either =
         duration(truth_[truth]) + duration(tracks_[track]) - overlap(truth_[truth], tracks_[track]);
     const double mean = 1.0 - closeness / (options_.cutoff * static_cast<double>(either));
-    costs.push_back({truth, track, std::pow(std::max(0.0, mean), options_.order)});
+    costs.push_back({truth, track, power(std::max(0.0, mean), options_.order)});
   });
   const std::vector<std::size_t> chosen = cheapest_pairs(costs, truths, tracks, 1.0);
   double sum = larger - static_cast<double>(chosen.size());
   for (const std::size_t i : chosen) sum += costs[i].value;
-  return options_.cutoff * std::pow(sum / larger, 1.0 / options_.order);
+  return options_.cutoff * power(sum / larger, 1.0 / options_.order);
 }
 
 }  // namespace ghtrack

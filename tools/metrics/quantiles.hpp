@@ -4,8 +4,12 @@
 
 namespace ghtrack {
 
-/// The value that a standard normal variable stays below with `probability`, by bisection of the
-/// error function.
+// By the portable functions: the same bits everywhere, in a browser, too.
+
+/// The value that a standard normal variable stays below with `probability`: Newton's method on the
+/// regularised incomplete gamma function Q(1/2, z²/2), from Abramowitz & Stegun 26.2.23. Relative
+/// error below 1e-12 for 1e-100 < probability < 1 − 1e-4, then as exact as 1 − probability.
+/// @param probability  in (0, 1)
 double normal_quantile(double probability);
 
 /// The probability that a χ² variable with `degrees` degrees of freedom, above 0, stays below x.

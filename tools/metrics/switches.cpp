@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/metrics/power.hpp"
+
 namespace ghtrack {
 
 double SwitchCounter::add(std::span<const std::int64_t> truth_ids,
@@ -45,7 +47,7 @@ double SwitchCounter::release(std::int64_t truth, std::int64_t track) {
 double gospa_with_switches(double gospa, double switches, double penalty, double order) {
   const double unit = std::max(gospa, penalty);  // so that no power overflows
   if (!(unit > 0.0)) return 0.0;
-  return unit * std::pow(std::pow(gospa / unit, order) + switches * std::pow(penalty / unit, order),
+  return unit * power(power(gospa / unit, order) + switches * power(penalty / unit, order),
                          1.0 / order);
 }
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "tools/metrics/close_pairs.hpp"
+#include "tools/metrics/power.hpp"
 
 namespace ghtrack {
 namespace {
@@ -156,7 +157,7 @@ TrajectoryGospa::Solution TrajectoryGospa::solve(const Group& group) const {
   }
   const std::vector<std::int64_t> instants = instants_of(group);
   constexpr double kFree = 1e30;
-  const double penalty = std::pow(options_.switching_penalty / options_.cutoff, options_.order);
+  const double penalty = power(options_.switching_penalty / options_.cutoff, options_.order);
   const std::size_t count = instants.size();
   Programme programme;
   std::map<std::int64_t, std::vector<int>> truth_rows, track_rows;
@@ -217,15 +218,15 @@ std::optional<TrajectoryGospaResult> TrajectoryGospa::result(bool whatever_it_ta
     sum.matched += solution.matched;
     sum.changes += solution.changes;
   }
-  const double power = std::pow(options_.cutoff, options_.order);
+  const double unit = power(options_.cutoff, options_.order);
   TrajectoryGospaResult result;
-  result.localisation = power * sum.localisation;
-  result.missed = power / 2.0 * (static_cast<double>(truths_) - sum.matched);
-  result.false_tracks = power / 2.0 * (static_cast<double>(tracks_) - sum.matched);
-  result.switches = std::pow(options_.switching_penalty, options_.order) * sum.changes;
+  result.localisation = unit * sum.localisation;
+  result.missed = unit / 2.0 * (static_cast<double>(truths_) - sum.matched);
+  result.false_tracks = unit / 2.0 * (static_cast<double>(tracks_) - sum.matched);
+  result.switches = power(options_.switching_penalty, options_.order) * sum.changes;
   const double total =
       result.localisation + result.missed + result.false_tracks + result.switches;
-  result.tgospa = std::pow(total, 1.0 / options_.order);
+  result.tgospa = power(total, 1.0 / options_.order);
   return result;
 }
 
@@ -238,7 +239,7 @@ TrajectoryGospaResult combine(std::span<const TrajectoryGospaResult> results, do
     sum.switches += result.switches;
   }
   sum.tgospa =
-      std::pow(sum.localisation + sum.missed + sum.false_tracks + sum.switches, 1.0 / order);
+      power(sum.localisation + sum.missed + sum.false_tracks + sum.switches, 1.0 / order);
   return sum;
 }
 

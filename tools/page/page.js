@@ -152,10 +152,12 @@
     state.metrics = texts;
     const reports = texts.map((text) => JSON.parse(text));
     const table = byId("lab-scores");
+    table.classList.add("ends-in-words");
     const used = columns.filter(([, keys]) => reports[0].objects.some((object) => value(object, keys) !== undefined));
     const head = document.createElement("thead"), body = document.createElement("tbody");
     const headings = document.createElement("tr");
-    headings.append(cell("th", "object"), cell("th", "filter"), ...used.map(([name]) => cell("th", name)));
+    // Numbers first: on a small screen the rest is to the right.
+    headings.append(cell("th", "object"), ...used.map(([name]) => cell("th", name)), cell("th", "filter"));
     head.append(headings);
     reports[0].objects.forEach((_, i) => reports.forEach((report, which) => {
       const object = report.objects[i];
@@ -173,11 +175,12 @@
       chooser.dataset.object = i;
       chooser.addEventListener("click", () => select(i === state.selected ? null : { object: i, track: null }, which));
       name.replaceChildren(swatch, chooser);
-      row.append(name, cell("td", `${object.filter} ${object.gains ?? ""}`));
+      row.append(name);
       for (const [, keys] of used) {
         const v = value(object, keys);
         row.append(cell("td", v === undefined ? "–" : Number.isInteger(v) ? String(v) : lab.short(v), v === undefined ? undefined : String(v)));
       }
+      row.append(cell("td", `${object.filter} ${object.gains ?? ""}`));
       body.append(row);
     }));
     table.replaceChildren(head, body);

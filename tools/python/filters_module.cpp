@@ -73,7 +73,7 @@ struct Batch {
 
   /// The same for one variable and constant gains.
   void run_quickly(const Gains& gains) const {
-    filter_series(gains, dt, estimates[0], estimates[1], {z, static_cast<std::size_t>(steps)},
+    filter_series(gains, dt, state(0, 0), {z, static_cast<std::size_t>(steps)},
                   {estimates + row(), static_cast<std::size_t>(row() * steps)});
   }
 
@@ -136,7 +136,7 @@ std::pair<Array, std::optional<Array>> batch(int order, const Array& z, const Ar
   const bool is_constant = g.size() == 1 && h.size() == 1 && k.size() == 1;
   {
     const py::gil_scoped_release release;
-    if (is_constant && order == 1 && lanes == 1) {
+    if (is_constant && lanes == 1) {
       series.run_quickly(gains_at(0));
     } else {
       series.run(gains_at);

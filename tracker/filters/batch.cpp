@@ -104,29 +104,47 @@ void sweep(SweepBlock& block, double dt, const double* z, const double* truth, s
 }
 
 /// Filters that go through pieces of one series side by side.
-constexpr std::size_t kPieces = 4;
+constexpr std::size_t kPieces = 6;
+
+/// One filter's state.
+struct SeriesState {
+  double x = 0.0, v = 0.0, a = 0.0;
+};
+
+/// @param order  1: without acceleration
+template <int order>
+GHTRACK_INLINE void step_one(const BatchGains<double>& k, double& x, double& v, double& a,
+                             double measured) {
+  const double predicted = order == 1 ? x + k.dt * v : x + k.dt * v + k.half_dt2 * a;
+  const double residual = measured == measured ? measured - predicted : 0.0;
+  x = predicted + k.g * residual;
+  v = (order == 1 ? v : v + k.dt * a) + k.h_per_dt * residual;
+  if constexpr (order == 2) a = a + k.k2_per_dt2 * residual;
+}
+
+/// Adding zero turns −0 into +0, as the term of an absent acceleration does.
+template <int order>
+GHTRACK_INLINE void keep(double* out, double x, double v, double a) {
+  out[0] = order == 1 ? x + 0.0 : x;
+  out[1] = order == 1 ? v + 0.0 : v;
+  if constexpr (order == 2) out[2] = a;
+}
 
 struct SeriesPieces {
-  std::array<double, kPieces> x{}, v{};
+  std::array<double, kPieces> x{}, v{}, a{};
   std::array<const double*, kPieces> z{};
   std::array<double*, kPieces> out{};
 };
 
 /// @param is_kept  whether estimates are written, or only the state is brought on
-template <bool is_kept>
+template <int order, bool is_kept>
 GHTRACK_INLINE void run_pieces(const BatchGains<double> k, SeriesPieces& pieces, std::size_t n) {
   SeriesPieces p = pieces;
   for (std::size_t step = 0; step < n; ++step) {
     for (std::size_t i = 0; i < kPieces; ++i) {
-      const double measured = p.z[i][step];
-      const double predicted = p.x[i] + k.dt * p.v[i];
-      const double residual = measured == measured ? measured - predicted : 0.0;
-      p.x[i] = predicted + k.g * residual;
-      p.v[i] = p.v[i] + k.h_per_dt * residual;
+      step_one<order>(k, p.x[i], p.v[i], p.a[i], p.z[i][step]);
       if constexpr (is_kept) {
-        // Adding zero turns −0 into +0, as the term of an absent acceleration does.
-        p.out[i][2 * step] = p.x[i] + 0.0;
-        p.out[i][2 * step + 1] = p.v[i] + 0.0;
+        keep<order>(p.out[i] + (order + 1) * step, p.x[i], p.v[i], p.a[i]);
       }
     }
   }
@@ -134,15 +152,13 @@ GHTRACK_INLINE void run_pieces(const BatchGains<double> k, SeriesPieces& pieces,
 }
 
 /// Filters on from a state until the estimates that are there already are met to the last bit.
-void mend(const BatchGains<double>& k, double x, double v, std::span<const double> z, double* out) {
+template <int order>
+void mend(const BatchGains<double>& k, SeriesState now, std::span<const double> z, double* out) {
   for (const double measured : z) {
-    const double predicted = x + k.dt * v;
-    const double residual = measured == measured ? measured - predicted : 0.0;
-    x = predicted + k.g * residual;
-    v = v + k.h_per_dt * residual;
-    if (out[0] == x && out[1] == v) return;
-    *out++ = x + 0.0;
-    *out++ = v + 0.0;
+    step_one<order>(k, now.x, now.v, now.a, measured);
+    if (out[0] == now.x && out[1] == now.v && (order == 1 || out[2] == now.a)) return;
+    keep<order>(out, now.x, now.v, now.a);
+    out += order + 1;
   }
 }
 
@@ -154,17 +170,17 @@ std::size_t memory_of(const Gains& gains) {
   return static_cast<std::size_t>(std::min(steps, kLongest));
 }
 
-}  // namespace
-
-void filter_series(const Gains& gains, double dt, double position, double velocity,
+template <int order>
+void filter_series(const Gains& gains, double dt, const SeriesState& start,
                    std::span<const double> z, std::span<double> estimates) {
-  assert(estimates.size() == 2 * z.size());
+  constexpr std::size_t kRow = order + 1;
+  assert(estimates.size() == kRow * z.size());
   const BatchGains<double> k(gains, dt);
   const std::size_t memory = memory_of(gains);
   const std::size_t length = z.size() / kPieces;
   if (length / 2 < memory) {
     std::fill(estimates.begin(), estimates.end(), std::numeric_limits<double>::quiet_NaN());
-    return mend(k, position, velocity, z, estimates.data());
+    return mend<order>(k, start, z, estimates.data());
   }
   SeriesPieces pieces;
   for (std::size_t i = 1; i < kPieces; ++i) {
@@ -172,24 +188,38 @@ void filter_series(const Gains& gains, double dt, double position, double veloci
     pieces.x[i] = std::isfinite(*pieces.z[i]) ? *pieces.z[i] : 0.0;
   }
   pieces.z[0] = pieces.z[1];  // the first one knows its beginning
-  run_pieces<false>(k, pieces, memory);
-  pieces.x[0] = position;
-  pieces.v[0] = velocity;
+  run_pieces<order, false>(k, pieces, memory);
+  pieces.x[0] = start.x;
+  pieces.v[0] = start.v;
+  pieces.a[0] = start.a;
   for (std::size_t i = 0; i < kPieces; ++i) {
     pieces.z[i] = &z[i * length];
-    pieces.out[i] = &estimates[2 * i * length];
+    pieces.out[i] = &estimates[kRow * i * length];
   }
-  run_pieces<true>(k, pieces, length);
+  run_pieces<order, true>(k, pieces, length);
 
+  const auto state_before = [&](std::size_t step) {
+    const double* const end = &estimates[kRow * step];
+    return order == 1 ? SeriesState{end[-2], end[-1], 0.0}
+                      : SeriesState{end[-3], end[-2], end[-1]};
+  };
   for (std::size_t i = 1; i < kPieces; ++i) {
-    const double* const end = &estimates[2 * i * length];
-    mend(k, end[-2], end[-1], z.subspan(i * length, length), &estimates[2 * i * length]);
+    mend<order>(k, state_before(i * length), z.subspan(i * length, length),
+                &estimates[kRow * i * length]);
   }
   const std::size_t done = kPieces * length;
-  std::fill(estimates.begin() + static_cast<std::ptrdiff_t>(2 * done), estimates.end(),
+  std::fill(estimates.begin() + static_cast<std::ptrdiff_t>(kRow * done), estimates.end(),
             std::numeric_limits<double>::quiet_NaN());
-  mend(k, estimates[2 * done - 2], estimates[2 * done - 1], z.subspan(done),
-       estimates.data() + 2 * done);
+  mend<order>(k, state_before(done), z.subspan(done), estimates.data() + kRow * done);
+}
+
+}  // namespace
+
+void filter_series(const Gains& gains, double dt, const Kinematics<1>& start,
+                   std::span<const double> z, std::span<double> estimates) {
+  const SeriesState first{start.position[0], start.velocity[0], start.acceleration[0]};
+  gains.order == 2 ? filter_series<2>(gains, dt, first, z, estimates)
+                   : filter_series<1>(gains, dt, first, z, estimates);
 }
 
 void step_batch(const BatchGains<double>& gains, std::span<double> position,

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "tracker/filters/gains/gains.hpp"
+#include "tracker/filters/kinematics.hpp"
 
 // Many filters with the same gains and the same step, stored as one array per quantity: what a
 // replay over thousands of objects needs. One lane is one axis of one object. Same bits as
@@ -45,15 +46,16 @@ void step_batch(const BatchGains<float>& gains, std::span<float> position,
                 std::span<float> velocity, std::span<float> acceleration, std::span<const float> z,
                 std::span<const float> used);
 
-/// One g-h filter over one series: state and rate after each measurement, as GainFilter has them.
+/// One g-h or g-h-k filter over one series: the state after each measurement, as GainFilter has it.
 ///
 /// Each step waits for the one before it. So the series is cut into pieces that are filtered side
 /// by side, each from a guess: the filter as it would be, had it begun some way before the piece. A
 /// stable filter forgets how it began to the last bit; where it has not when a piece ends, the next
 /// one is done again until it has. The result does not depend on the cuts.
 /// @param z          measurements, one step apart; NaN is a missed one
-/// @param estimates  position and velocity in turn, two for each measurement
-void filter_series(const Gains& gains, double dt, double position, double velocity,
+/// @param estimates  position, velocity and, of a g-h-k filter, acceleration in turn, for each
+///                   measurement
+void filter_series(const Gains& gains, double dt, const Kinematics<1>& start,
                    std::span<const double> z, std::span<double> estimates);
 
 /// Sums of squared errors of many g-h filters over one series, all started from the same guess one

@@ -102,6 +102,29 @@ TEST(ExpectedError, StaysWhatItIsForARadar) {
               1e-3 * r.trace());
 }
 
+// Derived: constant gains let through the noise of each axis by itself, so that an ellipse that turns
+// from scan to scan leaves a covariance of the same trace; what rounding makes of its symmetry fades.
+TEST(ExpectedError, StaysExactWhereNoiseIsElongated) {
+  const SensorConfig sensor = camera();
+  const auto errors = error_parts(sensor).value();
+  std::optional<ExpectedError> error;
+  TruthState truth;
+  for (int i = 0; i < 3000; ++i) {
+    const double angle = 0.7 * i;
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    Detection detection = noiseless_detection(sensor, truth.position).value();
+    detection.covariance = 0.01 * Eigen::Matrix2d::Identity() + 0.08 * along * along.transpose();
+    const SensedDetection used{sensor, errors, detection};
+    if (error) {
+      error->advance(truth, kPeriod * i, used);
+    } else {
+      error.emplace(gh(0.5, 0.2), truth, used, 0.0, 1);
+    }
+  }
+  const double noise = variance_reduction(Gains::of_gh(0.5, 0.2), kPeriod).x;
+  EXPECT_NEAR(error->value(truth).position_variance, noise * 0.10, 1e-9);
+}
+
 // Derived: growing memory of order 1 after n measurements: variance 2 (2n − 1) / (n (n + 1)) σ² per
 // axis (Zarchan & Musoff 2000), exact for constant velocity.
 TEST(ExpectedError, IsExactWhileStarting) {

@@ -10,6 +10,16 @@
 namespace ghtrack {
 namespace {
 
+// Derived: what stays below the quantile of p has the probability p, by the error function of the C
+// library.
+TEST(NormalQuantile, InvertsTheErrorFunction) {
+  for (const double p : {1e-300, 1e-30, 1e-8, 0.001, 0.025, 0.3, 0.5, 0.7, 0.975, 0.999}) {
+    const double reached = 0.5 * std::erfc(-normal_quantile(p) / std::numbers::sqrt2);
+    EXPECT_NEAR(reached, p, 1e-12 * p) << p;
+  }
+  EXPECT_EQ(normal_quantile(0.5), 0.0);
+}
+
 // Derived: χ² with two degrees of freedom is exponential with mean 2.
 TEST(ChiSquareQuantile, IsALogarithmForTwoDegrees) {
   for (const double probability : {1e-6, 0.025, 0.5, 0.95, 0.975, 0.999999}) {

@@ -126,22 +126,28 @@ TEST(Batch, FiltersASeriesLikeOneFilterStepByStep) {
   std::vector<Gains> all = {Gains::of_gh(1.0, 1.0), Gains::of_gh(1e-4, 1e-9),
                             Gains::of_gh(2.5, 1.0), Gains::of_gh(0.0, 0.0)};
   for (int i = 0; i < 40; ++i) all.push_back(testing::random_stable_gains(1, 0.99, engine));
+  for (int i = 0; i < 40; ++i) all.push_back(testing::random_stable_gains(2, 0.99, engine));
   for (const std::size_t n : {0, 1, 5, 999, 20'003}) {
     for (const Gains& gains : all) {
       std::vector<double> z(n);
       for (double& measured : z) {
         measured = missing(engine) ? std::numeric_limits<double>::quiet_NaN() : normal(engine);
       }
-      std::vector<double> estimates(2 * n);
-      filter_series(gains, dt, -0.5, 0.25, z, estimates);
-      Kinematics<1> now{Scalar(-0.5), Scalar(0.25), Scalar(0.0)};
+      const std::size_t row = gains.order == 2 ? 3 : 2;
+      std::vector<double> estimates(row * n);
+      Kinematics<1> now{Scalar(-0.5), Scalar(0.25), Scalar(gains.order == 2 ? 0.125 : 0.0)};
+      filter_series(gains, dt, now, z, estimates);
       for (std::size_t i = 0; i < n; ++i) {
         const Kinematics<1> prior = extrapolated(now, dt);
         const Scalar residual(std::isnan(z[i]) ? 0.0 : z[i] - prior.position[0]);
         now = corrected<1>(prior, residual, gains, dt);
         if (!now.is_finite()) break;  // unstable gains
-        ASSERT_EQ(bits(estimates[2 * i]), bits(now.position[0])) << gains.g << ' ' << n << ' ' << i;
-        ASSERT_EQ(bits(estimates[2 * i + 1]), bits(now.velocity[0])) << gains.g << ' ' << i;
+        const double* const said = &estimates[row * i];
+        ASSERT_EQ(bits(said[0]), bits(now.position[0])) << gains.g << ' ' << n << ' ' << i;
+        ASSERT_EQ(bits(said[1]), bits(now.velocity[0])) << gains.g << ' ' << i;
+        if (gains.order == 2) {
+          ASSERT_EQ(bits(said[2]), bits(now.acceleration[0])) << gains.g << ' ' << i;
+        }
       }
     }
   }
