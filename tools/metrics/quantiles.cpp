@@ -115,7 +115,7 @@ double normal_quantile(double probability) {
 }
 
 double chi_square_probability(double x, double degrees) {
-  return incomplete_gamma(0.5 * degrees, 0.5 * x);
+  return incomplete_gamma(0.5 * degrees, 0.5 * x).lower;
 }
 
 double chi_square_quantile(double probability, double degrees) {
