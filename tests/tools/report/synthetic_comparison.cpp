@@ -49,6 +49,7 @@ void add_rows(Comparison& comparison, std::size_t cell, const std::string& regim
            .median_ci95 = std::nullopt,
            .predicted = 0.9 * mean,
            .hindsight = {.raw = 0.4, .best_fixed_gains = 0.15, .best = {}, .crlb = {}, .smoother = 0.1},
+           .tracking_index = 0.5,
            .runs = 100,
            .difference = is_best ? 0.0 : 0.1,
            .difference_ci95 = is_best ? std::nullopt : std::optional(Interval{0.08, 0.12}),
