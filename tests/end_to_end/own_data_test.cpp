@@ -121,7 +121,7 @@ TEST(OwnData, TracksWhatNobodyHasDescribed) {
     ASSERT_EQ(learned.exit_code, 0) << learned.err;
     EXPECT_THAT(learned.err, HasSubstr("noise "));
     EXPECT_THAT(learned.err, HasSubstr(" … "));
-    EXPECT_THAT(learned.err, HasSubstr("1 tracks explain 100 % of the detections"));
+    EXPECT_THAT(learned.err, HasSubstr("1 track explains 100 % of the detections"));
     EXPECT_EQ(confirmed_in(folder.path() / "learned.csv").size(), 1U);
     const Outcome again =
         shell("ghtrack track d.csv -q -o again.csv --config used.yaml", folder.path());

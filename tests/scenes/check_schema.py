@@ -22,7 +22,9 @@ BEYOND_A_SCHEMA = {
     "below_the_ground", "drone_plan_backwards", "ground_profile_backwards", "juggled_with_a_velocity",
     "released_by_nobody", "released_too_early", "too_many_copies", "no_models",
     "drone_lighter_than_paper", "juggled_too_far",
-    "schedule_without_process_noise",
+    "schedule_without_process_noise", "carried_by_no_wind", "cars_ahead_overlap", "order_of_no_filter",
+    "recording_backwards", "recording_of_nothing", "route_leg_too_short", "route_turn_too_wide",
+    "route_without_speed",
     # YAML's own matters, and numbers that only a YAML 1.1 reader takes for numbers:
     "anchor_and_alias", "duplicate_key", "merge_key", "number_with_leading_zero", "number_in_hex",
     "number_with_plus", "number_with_underscore", "not_finite", "second_document", "tag",

@@ -11,6 +11,7 @@
 #include "tools/experiment/gain_search.hpp"
 #include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/axis_covariance.hpp"
+#include "tracker/filters/gains/analysis.hpp"
 #include "tracker/filters/gains/rules.hpp"
 
 namespace ghtrack {
@@ -66,6 +67,11 @@ class Judge {
       if ((scans += object->scans.size()) > kMostShadowed) break;
     }
     return squares.root().value_or(kNoValue);
+  }
+
+  /// The same of a filter with these gains; they may be too small for rounding to leave them stable.
+  double expected_of(const Gains& gains) const {
+    return is_stable(gains) ? expected(with(gains)) : kNoValue;
   }
 
   /// The gains of a search as a filter of a scene has them.
@@ -146,11 +152,11 @@ class Judge {
 /// The best fixed gains of an order: along Kalata's curve first, then off it.
 FoundGains best_of_order(const Judge& judge, int order) {
   const FoundNumber on = least_over_indices(
-      [&](double index) { return judge.expected(judge.with(tracking_index_gains(order, index))); });
+      [&](double index) { return judge.expected_of(tracking_index_gains(order, index)); });
   const Gains start = tracking_index_gains(order, on.at);
   if (order == 0) return {start, on.cost};
   const FoundGains off = least_cost_near(
-      start, [&](const Gains& gains) { return judge.expected(judge.with(gains)); });
+      start, [&](const Gains& gains) { return judge.expected_of(gains); });
   return off.cost < on.cost ? off : FoundGains{start, on.cost};
 }
 
@@ -199,13 +205,13 @@ Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfi
   if (!found.raw) return found;
   if (judge.has_variance()) find_best_gains(judge, found);
   found.crlb = posterior_bound(objects, sensors, motions);
-  constexpr int kIndices = 7;
+  constexpr int kIndices = 10;
   constexpr int kSections = 2;
   const double least =
-      std::min(least_cost_of_number(1e-4, 1e2, kIndices, kSections,
+      std::min(least_cost_of_number(1e-4, 1e5, kIndices, kSections,
                                     [&](double at) { return judge.smoothed_error<1>(at); })
                    .cost,
-               least_cost_of_number(1e-4, 1e2, kIndices, kSections, [&](double at) {
+               least_cost_of_number(1e-4, 1e5, kIndices, kSections, [&](double at) {
                  return judge.smoothed_error<2>(at);
                }).cost);
   if (std::isfinite(least)) found.smoother = least;

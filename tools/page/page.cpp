@@ -36,7 +36,7 @@ namespace {
 constexpr double kLongestGap = 0.1;                      // between instants that are drawn [s]
 constexpr std::size_t kMostNumbers = std::size_t{8} << 20;  // of a truth: 64 MB
 
-/// The instants of all scans, and others in between where they lie far apart.
+/// The instants of all scans, others in between where they lie far apart, and the end.
 std::vector<double> instants_of(const WorldScene& scene) {
   const std::vector<double> scans = scan_instants(scene);
   std::vector<double> instants;
@@ -51,6 +51,7 @@ std::vector<double> instants_of(const WorldScene& scene) {
     instants.push_back(time);
   }
   fill_up_to(scene.duration);
+  if (instants.empty() || instants.back() < scene.duration) instants.push_back(scene.duration);
   return instants;
 }
 

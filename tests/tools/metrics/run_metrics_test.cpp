@@ -303,7 +303,7 @@ TEST(RunReport, PrintsATableForAnyNames) {
               120);
     for (const char c : line) EXPECT_GE(static_cast<unsigned char>(c), 0x20);
   }
-  EXPECT_EQ(count, 1 + 6 + 2 + 3);  // heading, objects, what the columns mean, totals
+  EXPECT_EQ(count, 2 * (1 + 6) + 1 + 3 + 3);  // headings, objects, what the columns mean, totals
   EXPECT_THAT(table, HasSubstr("ballon géant"));
   EXPECT_THAT(table, HasSubstr("two?lines?[31m"));
   EXPECT_THAT(table, HasSubstr("?evil"));

@@ -11,6 +11,7 @@
 #include "sensors/sensor.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/page/forms.hpp"
+#include "tools/page/page.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/schedule.hpp"
 #include "tools/run/series.hpp"
@@ -53,6 +54,19 @@ Laboratory laboratory_of(const WorldScene& scene) {
   const TruthRecording truth = truth_of(scene);
   const RecordedScene recorded{scene.duration, scene.seed, to_recorded(truth.objects)};
   return {text_of(recorded), to_numbers(truth)};
+}
+
+// Property: a page can be made whenever its sensors look, and however much later the scene ends.
+TEST(ScenePage, IsMadeForScansAtAnyRate) {
+  if (!what_is_missing().empty()) GTEST_SKIP() << what_is_missing();
+  WorldScene scene = throwing();
+  for (const double rate : {0.25, 0.3, 7.0, 60.0}) {
+    for (const double duration : {0.04, 1.9, 3.0}) {
+      scene.sensors.front().rate = rate;
+      scene.duration = duration;
+      EXPECT_FALSE(scene_page(scene, {}, [] {}).empty()) << rate << " Hz, " << duration << " s";
+    }
+  }
 }
 
 // Property: the truth comes back as it was, to the last bit.
