@@ -68,17 +68,14 @@ Json value_cells(const std::vector<std::size_t>& filters, const RowsByFilter& ro
 }
 
 /// What the errors of a row may be held against.
-Json reference_cells(const Hindsight& hindsight) {
+Json reference_cells(const RowsByFilter& rows) {
+  const Hindsight& hindsight = rows.begin()->second->hindsight;
   Json cells = Json::array();
   for (const Reference& reference : kReferences) {
     const std::optional<double>& rmse = hindsight.*reference.value;
     cells.push_back({{"text", number(rmse)}, {"sort", sort_key(rmse)}});
   }
   return cells;
-}
-
-Json reference_cells(const RowsByFilter& rows) {
-  return reference_cells(rows.begin()->second->hindsight);
 }
 
 Json named(const Comparison& comparison, const std::vector<std::size_t>& filters) {
@@ -162,7 +159,6 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
                     {"mean", mean_text(row, comparison.cells[cell].runs)},
                     {"ci95", range(row.ci95)},
                     {"predicted", number(row.predicted)},
-                    {"references", reference_cells(row.hindsight)},
                     {"difference", difference},
                     {"verdict", to_string(row.significance)},
                     {"css", css_of(row.significance)}});
