@@ -4,7 +4,7 @@ find_program(GHTRACK_WASM_CXX NAMES clang++ clang++-14 DOC "clang++ for wasm32-w
 set(GHTRACK_WASM_FLAGS
     --target=wasm32-wasi
     -std=c++20
-    -Os
+    -O2
     -flto
     # The same bits as the native build, see GhtrackTargets.cmake.
     -ffp-contract=off
