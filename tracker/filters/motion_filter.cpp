@@ -29,11 +29,10 @@ Gains steady_gains_of(const MotionModel& model) {
         return steady_kalman_gains(m.process_model, m.order, m.process_intensity, model.sigma,
                                    model.interval);
       }
-      AxisCovariance<double> p = extrapolated(
-          steady_covariance(m.implied, m.order, model.sigma, model.interval), model.interval);
-      p += m.implied.over(model.interval);
-      const double s = p.xx + model.sigma * model.sigma;
       const double t = model.interval;
+      const double r = model.sigma * model.sigma;
+      const AxisCovariance<double> p = settled_prediction(m.implied.over(t), m.order, r, t);
+      const double s = p.xx + r;
       return {m.order, p.xx / s, t * p.xv / s, 0.5 * t * t * p.xa / s};
     }
     Gains operator()(const CoordinatedTurn& m) const { return white(m.spectral_density); }
