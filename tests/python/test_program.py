@@ -152,6 +152,34 @@ def test_tracks_are_the_same_however_detections_come(tmp_path):
         tracker.step(0.0, [])
 
 
+# Property: a DataFrame says what an array of its rows says, in any order of rows, with times of any
+# of pandas' kinds, missing entries and columns that the tracker does not know.
+def test_data_frames_come_and_go():
+    pandas = pytest.importorskip("pandas")
+    rows = crossing()
+    frame = pandas.DataFrame(rows, columns=["t", "x", "y"])
+    tracks = ghtrack.track(rows, config=CONFIG)
+    for like in (
+        frame,
+        frame.sample(frac=1, random_state=1),
+        frame.assign(note="seen"),
+        frame.rename(columns={"t": "time (s)", "x": "x (m)", "y": "y (m)"}),
+        frame.assign(t=pandas.to_timedelta(frame.t, unit="s")),
+        frame.assign(t=pandas.to_datetime(frame.t, unit="s")),
+        frame.assign(t=pandas.to_datetime(frame.t, unit="s", utc=True).dt.tz_convert("Asia/Kolkata")),
+        frame.astype({"x": "Float64"}),
+        frame.set_index(pandas.Index(range(500, 500 + len(frame)))),
+    ):
+        assert_array_equal(ghtrack.track(like, config=CONFIG).x, tracks.x)
+    rows[30, 1] = np.nan
+    missed = frame.assign(x=frame.x.where(frame.index != 30))
+    for like in (missed, missed.convert_dtypes(), missed.astype(object)):
+        assert_array_equal(ghtrack.track(like, config=CONFIG).x, ghtrack.track(rows, config=CONFIG).x)
+    back = tracks.to_pandas()
+    assert list(back) == tracks.columns and back.track_id.dtype == np.int64
+    assert_array_equal(ghtrack.Table.from_csv(back.to_csv(index=False)).x, tracks.x)
+
+
 def test_scores_of_tables():
     rows = crossing()
     truth = ghtrack.Table(

@@ -93,8 +93,8 @@ Dialect recognise_dialect(std::span<const std::string> lines) {
   if (lines.empty()) return dialect;
   const std::string_view first = trimmed(lines.front());
   constexpr std::array<char, 5> kSeparators = {';', '\t', '|', ',', ' '};
-  auto found =
-      std::find_if(kSeparators.begin(), kSeparators.end(), [&](char c) { return separates(first, c); });
+  auto found = std::find_if(kSeparators.begin(), kSeparators.end(),
+                            [&](char c) { return separates(first, c); });
   if (found == kSeparators.end() && lines.size() > 1) {  // a title, or one column
     const std::string_view second = trimmed(lines[1]);
     found = std::find_if(kSeparators.begin(), kSeparators.end(), [&](char c) {
@@ -157,8 +157,10 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
 
 bool is_missing(std::string_view cell) {
   if (cell.empty()) return true;
-  constexpr std::array<std::string_view, 11> kWords = {
-      "nan", "na", "n/a", "null", "none", "-", "--", "?", "#n/a", "+nan", "-nan"};
+  // Of numpy, R, pandas, SQL, Excel and Stata.
+  constexpr std::array<std::string_view, 17> kWords = {
+      "nan",  "+nan", "-nan", "na",  "n/a", "<na>", "nat", "null", "\\n",
+      "none", "#n/a", "#nv",  "nil", "-",   "--",   "?",   "."};
   if (cell.size() > 4) return false;
   char lower[4];
   for (std::size_t i = 0; i < cell.size(); ++i) {

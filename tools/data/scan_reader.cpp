@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "tools/data/fix_columns.hpp"
@@ -86,15 +87,21 @@ struct ScanReader::State {
   }
 
   std::string describe() const {
-    std::string text = fmt::format("{}: {} rows at {} instants", table.name(), summary.rows,
-                                   summary.instants);
+    const auto counted = [](std::int64_t n, const char* one, const char* many) {
+      return fmt::format("{} {}", n, n == 1 ? one : many);
+    };
+    std::string text =
+        fmt::format("{}: {} at {}", table.name(), counted(summary.rows, "row", "rows"),
+                    counted(summary.instants, "instant", "instants"));
     if (summary.rows > 0) {
       text += fmt::format(" over {:g} s", summary.last_time - summary.first_time);
     }
     text += fmt::format(" ({}), {}", table.dialect().describe(), fixes.describe(table));
-    if (sensor) text += fmt::format("; {} sensors", summary.sensors.size());
-    if (label) text += fmt::format("; {} classes", labels.words().size());
-    if (summary.missed > 0) text += fmt::format("; {} rows without a position", summary.missed);
+    if (sensor) text += "; " + counted(std::ssize(summary.sensors), "sensor", "sensors");
+    if (label) text += "; " + counted(std::ssize(labels.words()), "class", "classes");
+    if (summary.missed > 0) {
+      text += fmt::format("; {} without a position", counted(summary.missed, "row", "rows"));
+    }
     if (!summary.in_order) text += "; sorted by time";
     return text;
   }

@@ -13,6 +13,7 @@ namespace ghtrack {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -55,14 +56,17 @@ std::string message_of(const std::string& content, Read read) {
 
 // Derived: rows with the same time and sensor make one scan; times are sorted.
 TEST(ScanReader, GathersRowsIntoScans) {
-  EXPECT_EQ(scans_of("t,sensor,class,x,y\n0.2,radar,ball,1,2\n0.1,camera,,3,4\n0.2,camera,train,5,6\n"
-                     "0.2,radar,,7,8\n"),
-            "0.1/1: 3,4; 0.2/0: 1,2 7,8; 0.2/1: 5,6; ");
+  EXPECT_EQ(
+      scans_of("t,sensor,class,x,y\n0.2,radar,ball,1,2\n0.1,camera,,3,4\n0.2,camera,train,5,6\n"
+               "0.2,radar,,7,8\n"),
+      "0.1/1: 3,4; 0.2/0: 1,2 7,8; 0.2/1: 5,6; ");
 }
 
 // Derived: a row without a position is a scan that saw nothing.
 TEST(ScanReader, TakesAnEmptyPositionForAMissedDetection) {
-  for (const char* missing : {",", "nan,nan", "NaN,NaN", "NA,NA", " , ", "\"\",\"\"", "null,1"}) {
+  for (const char* missing :
+       {",", "nan,nan", "NaN,NaN", "NA,NA", " , ", "\"\",\"\"", "null,1", "<NA>,<NA>", "NaT,NaT",
+        "None,None", "\\N,\\N", "#N/A,#N/A", "#NV,1", ".,."}) {
     EXPECT_EQ(scans_of("t,x,y\n0,1,2\n1," + std::string(missing) + "\n2,3,4\n"),
               "0/0: 1,2; 1/0:; 2/0: 3,4; ")
         << missing;
@@ -94,8 +98,9 @@ TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
             expected);
   EXPECT_EQ(scans_of("Latest: Time (s),Latest: X (m),Latest: Y (m)\n0,1,2\n0.5,1.5,2.5\n"),
             expected);
-  EXPECT_EQ(scans_of("Zeit t / s;Ort x / m;Ort y / m;Geschwindigkeit v x\n0;1;2;7\n0,5;1,5;2,5;7\n"),
-            expected);
+  EXPECT_EQ(
+      scans_of("Zeit t / s;Ort x / m;Ort y / m;Geschwindigkeit v x\n0;1;2;7\n0,5;1,5;2,5;7\n"),
+      expected);
   EXPECT_EQ(scans_of("timestamp,x,y\n0,1,2\n500000,1.5,2.5\n", {.columns = "t=timestamp[us]"}),
             expected);
   EXPECT_EQ(scans_of("# Timestamp,x,y\n01/01/1970 00:00:00,1,2\n01/01/1970 00:00:00.5,1.5,2.5\n"),
@@ -181,6 +186,18 @@ TEST(ScanReader, TurnsDegreesIntoMetres) {
   EXPECT_THAT(reader.summary().understood, HasSubstr("2 rows at 2 instants over 1 s (commas)"));
 }
 
+// Derived: one of a thing is said in the singular.
+TEST(ScanReader, SaysWhatItUnderstood) {
+  const ScratchFolder folder;
+  const auto said = [&](const char* text) {
+    return ScanReader(folder.write("in.csv", text).string()).summary().understood;
+  };
+  EXPECT_THAT(said("t,x,y,sensor\n0,1,2,a\n"), HasSubstr("1 row at 1 instant over 0 s (commas)"));
+  EXPECT_THAT(said("t,x,y,sensor\n0,1,2,a\n"), EndsWith("; 1 sensor"));
+  EXPECT_THAT(said("t,x,y,class\n0,1,2,a\n1,NA,NA,b\n"),
+              EndsWith("; 2 classes; 1 row without a position"));
+}
+
 // Property: each defect is reported with its line and column; all are listed.
 TEST(ScanReader, NamesLineAndColumn) {
   const auto read = [](const auto& path) { ScanReader reader(path.string()); };
@@ -216,10 +233,10 @@ TEST(ScanReader, LeavesOutBadRowsIfAskedTo) {
 // Property: columns are found by name; times are sorted; tentative tracks are left out.
 TEST(PointReader, FindsColumnsByName) {
   const ScratchFolder folder;
-  const auto points = read_tracks_csv(
-      folder.write("tracks.csv",
-                   "y,status,name,track_id,t,x\n2,confirmed,\"a, b\",7,0.2,1\n"
-                   "4,coasting,c,-3,0.1,3\n9,tentative,c,8,0.1,9\n"));
+  const auto points =
+      read_tracks_csv(folder.write("tracks.csv",
+                                   "y,status,name,track_id,t,x\n2,confirmed,\"a, b\",7,0.2,1\n"
+                                   "4,coasting,c,-3,0.1,3\n9,tentative,c,8,0.1,9\n"));
   ASSERT_EQ(points.size(), 2U);
   EXPECT_EQ(points[0].id, -3);
   EXPECT_EQ(points[0].position, Eigen::Vector2d(3.0, 4.0));

@@ -306,18 +306,28 @@ def _as_table(data, names):
     if isinstance(data, Table):
         return data
     if hasattr(data, "columns") or isinstance(data, dict):
-        return Table({str(name): np.asarray(data[name]) for name in data})
+        return Table({str(name): _plain(data[name]) for name in data})
     array = np.asarray(data, dtype=float)
     if array.ndim != 2 or array.shape[1] > len(names) or array.shape[1] < 3:
         raise InputError(f"an array needs a row for each detection: {', '.join(names)}")
     return Table(dict(zip(names, array.T)))
 
 
+def _plain(column):
+    """A column as files have it: durations in seconds, dates in UTC."""
+    array = np.asarray(column)
+    if array.dtype.kind == "m":
+        return array / np.timedelta64(1, "s")
+    if array.dtype.kind == "M":
+        return np.datetime_as_string(array, timezone="UTC")
+    return array
+
+
 def _input(data, names):
     """The path of a file, or of one that has the data for a while."""
     if isinstance(data, (str, os.PathLike)):
         return _kept(data)
-    return _written(_as_table(data, names).to_csv(), "data.csv")
+    return _written(_as_table(data, names).to_csv(), "table.csv")
 
 
 def track(detections, config=None, **options):

@@ -11,13 +11,13 @@ __all__ = ["Table"]
 
 class Table:
     """A table whose columns are arrays: of numbers where every entry is one or empty (NaN), else of
-    texts.
+    texts. Identifiers that are all there are whole numbers.
 
     table["x"] or table.x is a column, table[mask] the rows that a mask chooses.
     """
 
     def __init__(self, columns):
-        self._columns = {name: np.asarray(column) for name, column in columns.items()}
+        self._columns = {name: _array(name, column) for name, column in columns.items()}
         if len({len(column) for column in self._columns.values()}) > 1:
             raise ValueError("the columns of a table have one length")
 
@@ -83,6 +83,14 @@ class Table:
 
 
 _TEXTS = {"name", "kind", "sensor", "class", "status", "filter"}
+_IDENTIFIERS = {"truth_id", "track_id"}
+
+
+def _array(name, column):
+    array = np.asarray(column)
+    if name in _IDENTIFIERS and array.dtype == float and np.all(array == np.trunc(array)):
+        return array.astype(np.int64)  # an empty entry is NaN, which equals nothing
+    return array
 
 
 def _typed(name, column):
