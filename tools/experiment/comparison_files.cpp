@@ -3,18 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "tools/experiment/comparison.hpp"
+#include "tools/metrics/json_values.hpp"
 #include "tools/metrics/text_table.hpp"
 #include "tools/record/csv_writer.hpp"
 
 namespace ghtrack {
 namespace {
 
+using json::interval;
+using json::number;
 using Json = nlohmann::ordered_json;
 
 std::optional<double> low(const std::optional<Interval>& interval) {
@@ -24,14 +26,6 @@ std::optional<double> low(const std::optional<Interval>& interval) {
 std::optional<double> high(const std::optional<Interval>& interval) {
   if (!interval) return std::nullopt;
   return interval->high;
-}
-
-Json number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-Json range(const std::optional<Interval>& interval) {
-  if (!interval) return nullptr;
-  return Json::array({number(interval->low), number(interval->high)});
 }
 
 Json row_json(const ComparisonRow& row, const Comparison& comparison) {
@@ -46,7 +40,7 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
           {"metric", info(row.metric).name},
           {"unit", info(row.metric).unit},
           {"mean", number(row.mean)},
-          {"ci95", range(row.ci95)},
+          {"ci95", interval(row.ci95)},
           {"interval", interval_kind(info(row.metric).average)},
           {"predicted", number(row.predicted)}};
   for (const Reference& reference : kReferences) {
@@ -54,11 +48,11 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
   }
   json.update({{"runs", row.runs},
           {"difference", number(row.difference)},
-          {"difference_ci95", range(row.difference_ci95)},
+          {"difference_ci95", interval(row.difference_ci95)},
           {"verdict", to_string(row.significance)},
           {"runs_to_decide", number(row.runs_to_decide)},
           {"median", number(row.median)},
-          {"median_ci95", range(row.median_ci95)},
+          {"median_ci95", interval(row.median_ci95)},
           {"heavy_tails", row.has_heavy_tails},
           {"tracking_index", number(row.tracking_index)}});
   return json;

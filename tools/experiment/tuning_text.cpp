@@ -3,24 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tools/experiment/tuning.hpp"
+#include "tools/metrics/json_values.hpp"
 #include "tools/metrics/text_table.hpp"
 
 namespace ghtrack {
 namespace {
 
+using json::interval;
+using json::number;
 using Json = nlohmann::ordered_json;
-
-Json number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-Json range(const std::optional<Interval>& interval) {
-  if (!interval) return nullptr;
-  return Json::array({number(interval->low), number(interval->high)});
-}
 
 Json judged_json(const JudgedGains& judged) {
   return {{"origin", judged.origin},
@@ -28,9 +22,9 @@ Json judged_json(const JudgedGains& judged) {
           {"gains", judged.gains},
           {"trained_rmse", number(judged.trained_rmse)},
           {"rmse", number(judged.rmse)},
-          {"ci95", range(judged.ci95)},
+          {"ci95", interval(judged.ci95)},
           {"difference", number(judged.difference)},
-          {"difference_ci95", range(judged.difference_ci95)},
+          {"difference_ci95", interval(judged.difference_ci95)},
           {"text", judged.text}};
 }
 

@@ -5,21 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/metrics/mot_json.hpp"
+#include "tools/metrics/json_values.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/metrics/text_table.hpp"
 
 namespace ghtrack {
 namespace {
 
+using json::interval;
+using json::number;
 using Json = nlohmann::ordered_json;
-
-Json number(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
-Json interval(const std::optional<Interval>& range) {
-  return range ? Json::array({number(range->low), number(range->high)}) : Json(nullptr);
-}
 
 Json object_json(const ObjectReport& object) {
   Json json;

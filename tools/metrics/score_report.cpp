@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/metrics/json_values.hpp"
 #include "tools/metrics/mot_json.hpp"
 #include "tools/metrics/score.hpp"
 #include "tools/metrics/text_table.hpp"
@@ -13,9 +14,8 @@
 namespace ghtrack {
 namespace {
 
+using json::number;
 using Json = nlohmann::ordered_json;
-
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 Json parameters_of(const ScoreResult& result) {
   Json parameters;
