@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <regex>
 #include <sstream>
 
 #include "tests/end_to_end/program.hpp"
@@ -11,11 +12,12 @@ namespace ghtrack::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<std::string> kCommands = {"run",    "video",  "compare", "tune",  "check",
-                                            "schema", "filter", "gains",   "track", "score"};
+const std::vector<std::string> kCommands = {"run",    "video", "view",  "compare", "tune", "check",
+                                            "filter", "gains", "track", "score",   "plot", "schema"};
 
 std::size_t characters(const std::string& line) {
   return static_cast<std::size_t>(std::count_if(
@@ -38,6 +40,23 @@ class Usage : public ::testing::Test {
  private:
   TemporaryFolder folder_;
 };
+
+// Property: no option takes an empty value, such as a shell makes of a variable with nothing in it.
+TEST_F(Usage, NoValueIsEmpty) {
+  const std::regex with_value(R"(^ +(?:-\w,)?(--[a-z0-9-]+) [A-Z].*)");
+  int options = 0;
+  for (const std::string& command : kCommands) {
+    for (const std::string& line : lines_of(ghtrack(command + " --help").out)) {
+      std::smatch option;
+      if (!std::regex_match(line, option, with_value)) continue;
+      ++options;
+      const Outcome outcome = ghtrack(command + " " + option.str(1) + " ''");
+      EXPECT_EQ(outcome.exit_code, 2) << command << line;
+      EXPECT_THAT(outcome.err, AnyOf(HasSubstr(" is empty\n"), HasSubstr(option.str(1) + " is ''")));
+    }
+  }
+  EXPECT_GT(options, 80);
+}
 
 // Derived: KEY=VALUE options apply as often as they are given, in their order.
 TEST_F(Usage, OptionsOfKeysRepeat) {

@@ -102,6 +102,28 @@ CLI::Validator number_in(Range range) {
   return validator;
 }
 
+/// Lets pass one of these words.
+CLI::Validator one_of(std::vector<std::string> words) {
+  CLI::Validator validator;
+  validator
+      .operation([words = std::move(words)](std::string& text) {
+        const bool is_known = std::find(words.begin(), words.end(), text) != words.end();
+        return is_known ? "" : fmt::format("is '{}'; allowed: {}", text, fmt::join(words, ", "));
+      })
+      .description("");
+  return validator;
+}
+
+/// Refuses empty values, such as what a shell makes of "$OUTPUT" when nothing is in it.
+void refuse_empty_values(CLI::App& command) {
+  CLI::Validator validator;
+  validator.operation([](std::string& text) { return std::string(text.empty() ? "is empty" : ""); })
+      .description("");
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_type_size() != 0) option->check(validator);
+  }
+}
+
 /// A number as an option.
 template <class Value>
 CLI::Option* add_number(CLI::App& command, const std::string& name, Value& value, Range range,
@@ -281,8 +303,9 @@ void add_view(CLI::App& app, ViewOptions& options) {
                      "HTML file (default: out/<scene name>/page.html)");
   command.add_flag("--no-open", options.stay, "write the page without opening it in a browser");
   command.footer(
-      "The page is one file that works without a network: truth, detections and this very tracker,\n"
-      "with sliders for filters, sensors and association, and two filters side by side.\n"
+      "The page is one file that works without a network: truth, detections and this\n"
+      "very tracker, with sliders for filters, sensors and association, and two filters\n"
+      "side by side.\n"
       "Examples:\n"
       "  ghtrack view scenes/three_regimes.yaml\n"
       "  ghtrack view scenes/textbook/interactive.yaml -o interactive.html --no-open");
@@ -334,9 +357,10 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
                      "filter starts at the first measurement");
   command.add_option("--dx0", options.dx0, "initial rate");
   command.add_option("--ddx0", options.ddx0, "initial acceleration");
-  add_number(command, "--dt", options.dt, kDuration,
-             "time between rows (default: as the times say, or 1); with --t-column the time between "
-             "rows that gains are meant for (default: the median)");
+  add_number(
+      command, "--dt", options.dt, kDuration,
+      "time between rows (default: as the times say, or 1); with --t-column the time between "
+      "rows that gains are meant for (default: the median)");
   command.add_option("--t-column", options.t_column,
                      "column that holds the time of each row, also with --dt (default: as its name "
                      "tells)");
@@ -406,9 +430,10 @@ void add_track(CLI::App& app, TrackOptions& options) {
              "chance that an object in view is detected in a scan");
   add_number(command, "--clutter", options.clutter, {.least = 0.0, .most = 1e5},
              "expected false detections per scan");
-  command.add_option("--life-cycle", options.life_cycle,
-                     "when a track counts as real: existence, by its probability, or counts, by its "
-                     "hits and misses (default: as the configuration says, else existence)");
+  command.add_option(
+      "--life-cycle", options.life_cycle,
+      "when a track counts as real: existence, by its probability, or counts, by its "
+      "hits and misses (default: as the configuration says, else existence)");
   command.add_option("--save-config", options.save_config,
                      "write what was used, learned or given, as a file for --config");
   command.add_flag("--online", options.online,
@@ -429,12 +454,14 @@ void add_track(CLI::App& app, TrackOptions& options) {
   command.add_option("--background", options.film.background,
                      "what the video shows them over: a video, a folder of pictures, or a picture, "
                      "such as a map (default: img1 of a sequence, else dark ground)");
-  add_repeated(command, "--homography", options.film.homography,
-               "X,Y=U,V: a place and the pixel of the background that shows it, four times; LAT,LON "
-               "for data in degrees (default: the data are pixels)");
-  add_number(command, "--video-start", options.film.start, kAny,
-             "time of the data at the first picture of the background [s] (default: 0, or the first "
-             "where they do not count from there)");
+  add_repeated(
+      command, "--homography", options.film.homography,
+      "X,Y=U,V: a place and the pixel of the background that shows it, four times; LAT,LON "
+      "for data in degrees (default: the data are pixels)");
+  add_number(
+      command, "--video-start", options.film.start, kAny,
+      "time of the data at the first picture of the background [s] (default: 0, or the first "
+      "where they do not count from there)");
   command.add_option("--evaluation-folder", options.evaluation_folder,
                      "also write truth and results in the layout of TrackEval");
   command.add_option("--benchmark", options.benchmark, "its name there")->capture_default_str();
@@ -513,7 +540,7 @@ void add_plot(CLI::App& app, PlotOptions& options) {
   command
       .add_option("--size", options.size,
                   "screen, slide, or column or page of a paper (88.9 and 181.9 mm)")
-      ->check(CLI::IsMember({"screen", "slide", "column", "page"}))
+      ->check(one_of({"screen", "slide", "column", "page"}))
       ->capture_default_str();
   command.add_option("--title", options.title, "above the panels");
   command.add_flag("--dark", options.dark, "light on dark");
@@ -620,8 +647,9 @@ int dispatch(std::vector<std::string> words) {
       {"manual", [&] { return write_manual(app, manual_folder), 0; }},
   };
   std::vector<CommandWords> known = {words_of(app, "")};
-  for (const CLI::App* command : app.get_subcommands({})) {
+  for (CLI::App* command : app.get_subcommands({})) {
     known.push_back(words_of(*command, command->get_name()));
+    refuse_empty_values(*command);
   }
   if (words.empty()) words = {"help"};
   if (words.front() == "help") {  // `help COMMAND` is `COMMAND --help`
