@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/tracker/scans.hpp"
 #include "tracker/tracker.hpp"
 
 namespace ghtrack {
@@ -17,28 +18,11 @@ constexpr double kSigma = 1.0;
 constexpr double kSide = 300.0;
 
 TrackerDesign design(Association association, double detection_probability, double clutter) {
-  TrackerConfig config;
-  config.association = association;
-  KalmanCvConfig filter;
-  filter.model = process::WhiteNoise<1>{.spectral_density = 0.02};
-  filter.initial_speed = 2.0;
-  config.filters["default"] = filter;
-  return {config,
-          {{.period = 1.0,
-            .sigma = kSigma,
-            .field_of_view = Eigen::AlignedBox2d(Vector2d(0, 0), Vector2d(kSide, kSide)),
-            .detection_probability = detection_probability,
-            .clutter = clutter}}};
+  return testing::told_design(association, kSide, detection_probability, clutter);
 }
 
 Scan scan_of(double time, const std::vector<Vector2d>& positions) {
-  Scan scan{.time = time, .sensor = 0, .detections = {}};
-  for (const Vector2d& position : positions) {
-    scan.detections.push_back({.position = position,
-                               .covariance = kSigma * kSigma * Eigen::Matrix2d::Identity(),
-                               .label = {}});
-  }
-  return scan;
+  return testing::scan_of(time, positions, kSigma);
 }
 
 // Derived: Bayes' rule for "there is a target" and "it was missed".

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/tracker/scans.hpp"
 #include "tracker/tracker.hpp"
 
 namespace ghtrack {
@@ -19,18 +20,7 @@ using Eigen::Vector2d;
 constexpr double kSide = 200.0;
 
 TrackerDesign design(Association association, double detection_probability, double clutter) {
-  TrackerConfig config;
-  config.association = association;
-  KalmanCvConfig filter;
-  filter.model = process::WhiteNoise<1>{.spectral_density = 0.02};
-  filter.initial_speed = 2.0;
-  config.filters["default"] = filter;
-  return {config,
-          {{.period = 1.0,
-            .sigma = 1.0,
-            .field_of_view = Eigen::AlignedBox2d(Vector2d(0, 0), Vector2d(kSide, kSide)),
-            .detection_probability = detection_probability,
-            .clutter = clutter}}};
+  return testing::told_design(association, kSide, detection_probability, clutter);
 }
 
 /// Scans of targets on known paths among clutter.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/tracker/scans.hpp"
 #include "tracker/tracker.hpp"
 
 namespace ghtrack {
@@ -25,13 +26,7 @@ TrackerDesign design(int scans) {
 }
 
 Scan scan_of(double time, const std::vector<Vector2d>& positions) {
-  Scan scan{.time = time, .sensor = 0, .detections = {}};
-  for (const Vector2d& position : positions) {
-    scan.detections.push_back({.position = position,
-                               .covariance = kSigma * kSigma * Eigen::Matrix2d::Identity(),
-                               .label = {}});
-  }
-  return scan;
+  return testing::scan_of(time, positions, kSigma);
 }
 
 Vector2d noise(std::mt19937& random) {

@@ -8,6 +8,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/tracker/scans.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -26,13 +28,7 @@ TrackerDesign design(TrackerConfig config = {}, SensorTraits sensor = {}) {
 }
 
 Scan scan_of(double time, const std::vector<Vector2d>& positions) {
-  Scan scan{.time = time, .sensor = 0, .detections = {}};
-  for (const Vector2d& position : positions) {
-    scan.detections.push_back({.position = position,
-                               .covariance = kSigma * kSigma * Eigen::Matrix2d::Identity(),
-                               .label = {}});
-  }
-  return scan;
+  return testing::scan_of(time, positions, kSigma);
 }
 
 TrackerState follow(const TrackerDesign& tracker, const std::vector<Scan>& scans) {
