@@ -24,8 +24,9 @@ SMALL = {
 }
 
 
-def program(*arguments):
-    return subprocess.run([_program.executable(), *map(str, arguments)], check=True, capture_output=True, text=True)
+def program(*arguments, folder=None):
+    command = [_program.executable(), *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
 
 
 # Property: a run has the bytes of the program's.
@@ -210,6 +211,20 @@ def test_pictures_are_shown_by_jupyter(tmp_path):
     picture = ghtrack.render(ghtrack.run(SMALL), size="320x180", from_=1, to=1)
     assert picture._repr_png_().startswith(b"\x89PNG") and picture._repr_html_() is None
     assert tmp_path and picture.path.exists()
+
+
+# Property: the page of a run is the program's, byte for byte, and Jupyter shows it in a frame.
+def test_pages_are_shown_by_jupyter(tmp_path):
+    try:
+        page = ghtrack.run(SMALL, seed=3).view()
+    except ghtrack.EnvironmentFailure as failure:
+        pytest.skip(str(failure))  # no compiler for WebAssembly was there
+    scene = tmp_path / "one_throw.yaml"
+    scene.write_text(json.dumps(SMALL, indent=1))
+    program("view", scene.name, "--seed", 3, "--no-open", "-o", "theirs.html", folder=tmp_path)
+    assert page.path.read_bytes() == (tmp_path / "theirs.html").read_bytes()
+    assert page._repr_html_().startswith("<iframe srcdoc=")
+    assert ghtrack.view(SMALL, tmp_path / "ours.html", duration=1).path.stat().st_size > 100_000
 
 
 # Property: importing costs next to nothing and brings no heavy library; measured in modules, not time.

@@ -20,7 +20,7 @@ _NAMES = {
     "Table": "table",
     "Tracker": "live",
     **dict.fromkeys(
-        ("compare", "gains", "load_scene", "plot", "render", "run", "score", "track", "tune"), "experiment"
+        ("compare", "gains", "load_scene", "plot", "render", "run", "score", "track", "tune", "view"), "experiment"
     ),
 }
 

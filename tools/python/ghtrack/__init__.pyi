@@ -16,12 +16,14 @@ from ghtrack.experiment import run as run
 from ghtrack.experiment import score as score
 from ghtrack.experiment import track as track
 from ghtrack.experiment import tune as tune
+from ghtrack.experiment import view as view
 from ghtrack.live import Tracker as Tracker
 from ghtrack.table import Table as Table
 
 __all__ = [
     "EnvironmentFailure", "InputError", "Table", "Tracker", "common", "compare", "discrete_bayes", "gains",
     "gh", "kalman", "leastsq", "load_scene", "memory", "plot", "render", "run", "score", "stats", "track", "tune",
+    "view",
 ]
 
 def __getattr__(name: str) -> object: ...

@@ -34,14 +34,15 @@ def executable():
     return found
 
 
-def call(*arguments, stdin=None):
-    """Standard output of `ghtrack ARGUMENTS`; what it says beside is shown on standard error.
+def call(*arguments, folder=None):
+    """Standard output of `ghtrack ARGUMENTS`, in a folder; what it says beside is shown on standard
+    error.
 
     Raises InputError or EnvironmentFailure with the program's own words.
     """
     command = [executable(), *map(str, arguments)]
     # Arguments are passed as they are: no shell takes part.
-    done = subprocess.run(command, input=stdin, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     said = _without_scratch(done.stderr)
     if done.returncode == 0:
         if said:

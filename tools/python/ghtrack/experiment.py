@@ -14,6 +14,7 @@ from ghtrack.table import Table
 
 __all__ = [
     "Comparison",
+    "Page",
     "Picture",
     "Run",
     "Scene",
@@ -26,6 +27,7 @@ __all__ = [
     "score",
     "track",
     "tune",
+    "view",
 ]
 
 
@@ -168,6 +170,10 @@ class Run:
         """Tracks or filtered series over time, with residuals and errors; see plot()."""
         return plot(self, path, **options)
 
+    def view(self, path=None):
+        """The page on which this run can be played with; see view()."""
+        return view(self, path)
+
     def __repr__(self):
         return f"<Run of {self.scene.name!r}>\n{self.summary}"
 
@@ -292,6 +298,41 @@ def plot(source, path=None, **options):
     return Picture(path, keeper)
 
 
+class Page:
+    """A web page that Jupyter shows; path is that of its file."""
+
+    def __init__(self, path, keeper=None):
+        self.path, self._keeper = pathlib.Path(path), keeper
+
+    def _repr_html_(self):
+        page = html.escape(self.path.read_text(encoding="utf-8"))
+        return f'<iframe srcdoc="{page}" style="width:100%;height:48em;border:0"></iframe>'
+
+    def __repr__(self):
+        return f"<Page {self.path.name}, {self.path.stat().st_size} bytes>"
+
+
+def view(run_or_scene, path=None, **options):
+    """The page on which a run or scene can be played with, as `ghtrack view` makes it.
+
+    Parameters
+    ----------
+    path : HTML file; without it one that goes when the returned value does
+    options : those of the command, such as seed=3, duration=10
+
+    Returns a Page.
+    """
+    of_run = isinstance(run_or_scene, Run)
+    scene = run_or_scene.scene if of_run else load_scene(run_or_scene)
+    keeper = None if path else tempfile.TemporaryDirectory(prefix="ghtrack-")
+    path = pathlib.Path(path or pathlib.Path(keeper.name) / "page.html").absolute()
+    base = run_or_scene._options if of_run else {}
+    words = option_list({**base, **options})
+    with scene._as_file() as file:  # the page names it
+        call("--quiet", "view", file.name, "--no-open", "-o", path, *words, folder=file.parent)
+    return Page(path, keeper)
+
+
 def gains(rule, **options):
     """Gains by a rule and what they do: the JSON of `ghtrack gains` as a dict.
 
@@ -383,8 +424,7 @@ class Comparison:
         return self.summary
 
     def _repr_html_(self):
-        page = html.escape(self.report.read_text(encoding="utf-8"))
-        return f'<iframe srcdoc="{page}" style="width:100%;height:40em;border:0"></iframe>'
+        return Page(self.report)._repr_html_()
 
 
 def compare(scenes, filters=None, folder=None, **options):
