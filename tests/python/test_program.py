@@ -204,7 +204,9 @@ def test_gains_compare_and_tune():
     assert set(comparison.table.filter) >= {"slow", "quick"}
     assert comparison.report.stat().st_size > 1000
     assert comparison._repr_html_().startswith("<iframe")
-    assert ghtrack.tune(SMALL, runs=1, filter="gh", jobs=1)
+    tuning = ghtrack.tune(SMALL, runs=1, filter="gh", jobs=1)
+    assert tuning and json.loads((tuning.folder / "tuning.json").read_text()) == tuning
+    assert tuning._repr_html_().startswith("<iframe") and "gh" in repr(tuning)
 
 
 def test_pictures_are_shown_by_jupyter(tmp_path):

@@ -18,6 +18,7 @@ __all__ = [
     "Picture",
     "Run",
     "Scene",
+    "Tuning",
     "compare",
     "gains",
     "load_scene",
@@ -451,12 +452,42 @@ def compare(scenes, filters=None, folder=None, **options):
     return Comparison(folder, summary, keeper)
 
 
-def tune(scene, **options):
-    """The best gains for each regime of a scene: the content of tuning.json as a dict.
+class Tuning(dict):
+    """The content of tuning.json.
 
-    options are those of `ghtrack tune`, such as runs=20, filter="gh".
+    Attributes
+    ----------
+    report : path of the page, folder : of all files, among them gains.yaml, the winners as a piece of
+        a scene; a folder of its own goes when this does
+    summary : the table that the program prints
+    """
+
+    def __init__(self, folder, summary, keeper):
+        self.folder, self.summary, self._keeper = pathlib.Path(folder), summary, keeper
+        self.report = self.folder / "report.html"
+        super().__init__(json.loads((self.folder / "tuning.json").read_text(encoding="utf-8")))
+
+    def __repr__(self):
+        return self.summary
+
+    def _repr_html_(self):
+        return Page(self.report)._repr_html_()
+
+
+def tune(scene, folder=None, **options):
+    """The best gains for each regime of a scene.
+
+    Parameters
+    ----------
+    scene : path, text, dict or Scene
+    folder : where to keep the files
+    options : those of `ghtrack tune`, such as runs=20, filter="gh"
+
+    Returns a Tuning, which is a dict.
     """
     scene = load_scene(scene)
-    with tempfile.TemporaryDirectory(prefix="ghtrack-") as folder, scene._as_file() as path:
-        call("--quiet", "tune", path, "-o", pathlib.Path(folder) / "tuning", *option_list(options))
-        return json.loads((pathlib.Path(folder) / "tuning" / "tuning.json").read_text(encoding="utf-8"))
+    keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
+    folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "tuning")
+    with scene._as_file() as path:
+        summary = call("--quiet", "tune", path, "-o", folder, *option_list(options))
+    return Tuning(folder, summary, keeper)

@@ -11,6 +11,7 @@ __all__ = [
     "Picture",
     "Run",
     "Scene",
+    "Tuning",
     "compare",
     "gains",
     "load_scene",
@@ -78,6 +79,12 @@ class Comparison:
     @property
     def table(self) -> Table: ...
 
+class Tuning(dict[str, Any]):
+    folder: pathlib.Path
+    summary: str
+    report: pathlib.Path
+    def __init__(self, folder: str | os.PathLike[str], summary: str, keeper: Any) -> None: ...
+
 def load_scene(source: _Source) -> Scene: ...
 def run(
     scene: _Source,
@@ -99,4 +106,4 @@ def compare(
     folder: str | os.PathLike[str] | None = ...,
     **options: Any,
 ) -> Comparison: ...
-def tune(scene: _Source, **options: Any) -> dict[str, Any]: ...
+def tune(scene: _Source, folder: str | os.PathLike[str] | None = ..., **options: Any) -> Tuning: ...
