@@ -23,6 +23,7 @@ constexpr std::array kShares = {0.05, 0.15, 0.4, 0.8, 0.98};
 
 /// A detection, one that may be the same target's before it, and how well a third one fits.
 struct Pair {
+  std::size_t middle;  // number of the detection
   double speed;
   double squared_residual;  // divided by f² [m²]
   double density;           // of residuals by chance [1/m²]
@@ -30,7 +31,23 @@ struct Pair {
 
 struct Sample {
   std::vector<Pair> pairs;
-  double middles = 0.0;  // how many detections were looked at
+  std::size_t middles = 0;  // how many detections were looked at
+};
+
+/// A detection that goes on with probability p, after any of those before it alike.
+struct Trial {
+  double ratios = 0.0;  // Σ of how much likelier what comes next is than by chance
+  int before = 0;
+  double evidence = 0.0;  // ln (1 − p + p mean ratio)
+  double real = 0.0;      // probability that it goes on
+
+  void add(double ratio, double share) {
+    ratios += ratio;
+    ++before;
+    const double odds = share / (1.0 - share) * ratios / before;
+    evidence = portable::log((1.0 - share) * (1.0 + odds));
+    real = odds / (1.0 + odds);
+  }
 };
 
 double area_of(const std::vector<SensorLook>& looks) {
@@ -82,7 +99,8 @@ void collect(const std::vector<SensorLook>& looks, Sample& sample) {
           factor = f2;
         }
         if (!std::isfinite(least)) continue;
-        sample.pairs.push_back({.speed = velocity.norm(),
+        sample.pairs.push_back({.middle = sample.middles - 1,
+                                .speed = velocity.norm(),
                                 .squared_residual = least,
                                 .density = factor * static_cast<double>(next.size()) / area});
       }
@@ -157,25 +175,30 @@ std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> senso
   std::sort(pairs.begin(), pairs.end(),
             [](const Pair& a, const Pair& b) { return a.speed < b.speed; });
   Scales best;
+  std::vector<Trial> trials;
   for (const double noise : noises_of(pairs, rounding(sensors).maxCoeff())) {
     if (!(noise > 0.0)) continue;
     const double variance = noise * noise;
     for (const double share : kShares) {
+      trials.assign(sample.middles, {});
       double evidence = 0.0;
       double real = 0.0;
       for (const Pair& pair : pairs) {  // slowest first
-        const double odds = share / (1.0 - share) *
-                            portable::exp(-0.5 * pair.squared_residual / variance) /
-                            (2.0 * std::numbers::pi * variance * pair.density);
-        evidence += portable::log((1.0 - share) * (1.0 + odds));
-        real += odds / (1.0 + odds);
+        Trial& trial = trials[pair.middle];
+        evidence -= trial.evidence;
+        real -= trial.real;
+        trial.add(portable::exp(-0.5 * pair.squared_residual / variance) /
+                      (2.0 * std::numbers::pi * variance * pair.density),
+                  share);
+        evidence += trial.evidence;
+        real += trial.real;
         if (evidence <= best.evidence) continue;
         best = {.noise = noise, .speed = pair.speed, .share = real, .evidence = evidence};
       }
     }
   }
   if (best.evidence < kLeastEvidence) return std::nullopt;
-  best.share = std::clamp(best.share / sample.middles, 0.0, 1.0);
+  best.share = std::clamp(best.share / static_cast<double>(sample.middles), 0.0, 1.0);
   return best;
 }
 

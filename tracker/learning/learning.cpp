@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "sim/portable_math.hpp"
@@ -37,6 +40,7 @@ struct Counts {
 struct Parameters {
   LearnedMotion motion;
   std::vector<Learned> detection_probability, clutter;  // of each sensor
+  std::vector<double> area;  // of each sensor: that false detections are spread over [m²]
   ExistenceConfig existence;
   std::map<std::string, FilterConfig> filters;
 };
@@ -73,6 +77,28 @@ Learned rate(double events, double scans) {
   const double mean = (events + 0.1) / scans;
   const double spread = 1.96 * std::sqrt(events + 1.0) / scans;
   return {mean, std::max(0.0, mean - spread), mean + spread};
+}
+
+/// The area of a uniform distribution by which chance brings two places together as often as these
+/// are: 1 / ∫ f² for a density f, from how far apart the nearest pairs are. Of false detections it
+/// says how many of them are where others are, however they are spread.
+/// @return nothing for too few places
+std::optional<double> spread_of(const std::vector<Eigen::Vector2d>& places) {
+  constexpr std::size_t kFewest = 30;
+  constexpr std::size_t kMost = 400;
+  constexpr double kNearest = 0.02;  // of the pairs
+  if (places.size() < kFewest) return std::nullopt;
+  const std::size_t stride = (places.size() + kMost - 1) / kMost;
+  std::vector<double> squared;
+  for (std::size_t i = 0; i < places.size(); i += stride) {
+    for (std::size_t j = 0; j < i; j += stride) {
+      squared.push_back((places[i] - places[j]).squaredNorm());
+    }
+  }
+  const auto at = squared.begin() + static_cast<std::ptrdiff_t>(
+                                        kNearest * static_cast<double>(squared.size()));
+  std::nth_element(squared.begin(), at, squared.end());
+  return std::numbers::pi * *at / kNearest;
 }
 
 class Learner {
@@ -164,7 +190,9 @@ class Learner {
       if (pass.paths.empty()) break;
       Parameters next = refined(now, pass, i == 0);
       const bool is_settled = change(now, next) < 0.1;
-      if (pass.log_likelihood > best.pass.log_likelihood) best = {now, std::move(pass), {}};
+      if (pass.log_likelihood > best.pass.log_likelihood) {
+        best = {is_settled ? next : now, std::move(pass), {}};
+      }
       now = std::move(next);
       if (is_settled) break;
     }
@@ -201,6 +229,7 @@ class Learner {
       const double each = seen / std::max<double>(1.0, static_cast<double>(times_[s].size()));
       p.clutter.push_back(given_or(said.clutter, std::max(1.0 - real, kFalseAtLeast) * each));
     }
+    p.area = areas(p, {});
     set_filters(p);
     return p;
   }
@@ -217,23 +246,47 @@ class Learner {
 
   SensorTraits traits(const Parameters& p, std::size_t s) const {
     const SensorSaid& said = said_[s];
-    const LearnedMotion::Noise& noise = p.motion.noise[s];
-    const double sigma = std::sqrt(noise.x.value * noise.y.value);
     return {.period = said.period,
-            .sigma = sigma,
+            .sigma = typical_sigma(p, s),
             .field_of_view = said.field_of_view,
             .detection_probability = p.detection_probability[s].value,
             .clutter = p.clutter[s].value,
             .coverage = said.coverage};
   }
 
-  /// What is said, or that of all detections with their errors.
-  double area(const Parameters& p, std::size_t s) const {
-    if (std::isfinite(said_[s].area)) return said_[s].area;
-    const LearnedMotion::Noise& noise = p.motion.noise[s];
-    const double sigma = std::sqrt(noise.x.value * noise.y.value);
-    const Eigen::Vector2d sides = seen_[s] + Eigen::Vector2d::Constant(6.0 * sigma);
-    return sides.prod();
+  double typical_sigma(const Parameters& p, std::size_t s) const {
+    return std::sqrt(p.motion.noise[s].x.value * p.motion.noise[s].y.value);
+  }
+
+  /// The area that false detections are spread over: what is said, or where tracks leave enough
+  /// detections unexplained that of these, and at most that of all detections with their errors.
+  std::vector<double> areas(const Parameters& p, const std::vector<Path>& paths) const {
+    std::set<std::tuple<int, double, double, double>> explained;
+    for (const Path& path : paths) {
+      for (const Fix& fix : path.fixes) {
+        explained.emplace(fix.sensor, fix.time, fix.position.x(), fix.position.y());
+      }
+    }
+    std::vector<std::vector<Eigen::Vector2d>> unexplained(said_.size());
+    for (const Scan& scan : scans_) {
+      for (const Detection& d : scan.detections) {
+        const bool is_explained =
+            explained.contains({scan.sensor, scan.time, d.position.x(), d.position.y()});
+        if (!is_explained) unexplained[static_cast<std::size_t>(scan.sensor)].push_back(d.position);
+      }
+    }
+    std::vector<double> result;
+    for (std::size_t s = 0; s < said_.size(); ++s) {
+      if (std::isfinite(said_[s].area)) {
+        result.push_back(said_[s].area);
+        continue;
+      }
+      const double sigma = typical_sigma(p, s);
+      const double all = (seen_[s] + Eigen::Vector2d::Constant(6.0 * sigma)).prod();
+      const double least = std::min(all, 2.0 * std::numbers::pi * sigma * sigma);
+      result.push_back(std::clamp(spread_of(unexplained[s]).value_or(all), least, all));
+    }
+    return result;
   }
 
   std::vector<SensorTraits> all_traits(const Parameters& p) const {
@@ -250,11 +303,13 @@ class Learner {
     return config;
   }
 
+  /// What ln p takes false detections to be spread over: for all passes the same, so that none
+  /// gains by leaving targets unexplained that are close together.
+  double reference_area() const { return extent_ > 0.0 ? extent_ * extent_ : 1.0; }
+
   /// The tracker's own pass over all scans.
   Pass track(const Parameters& p) {
-    std::vector<double> areas;
-    for (std::size_t s = 0; s < said_.size(); ++s) areas.push_back(area(p, s));
-    const TrackerDesign design(tracking(p), all_traits(p), areas);
+    const TrackerDesign design(tracking(p), all_traits(p), p.area);
     std::vector<Eigen::Matrix2d> covariance;
     for (const LearnedMotion::Noise& noise : p.motion.noise) {
       covariance.emplace_back(
@@ -275,6 +330,10 @@ class Learner {
     }
     ++passes_;
     pass.paths = recorder.paths();
+    const std::vector<Counts> counts = count(pass.paths);
+    for (std::size_t s = 0; s < said_.size(); ++s) {
+      pass.log_likelihood += counts[s].unexplained * portable::log(p.area[s] / reference_area());
+    }
     return pass;
   }
 
@@ -372,6 +431,7 @@ class Learner {
       Learned& clutter = next.clutter[s];
       if (!clutter.is_given) clutter = rate(counts[s].unexplained, std::max(1.0, counts[s].scans));
     }
+    next.area = areas(next, pass.paths);
     next.existence = comings(next, pass.paths);
     set_filters(next);
     return next;
@@ -407,7 +467,7 @@ class Learner {
                                  .detection_probability = p.detection_probability[s],
                                  .clutter = p.clutter[s],
                                  .traits = traits(p, s),
-                                 .area = area(p, s)});
+                                 .area = p.area[s]});
     }
     learned.tracks = static_cast<int>(pass.paths.size());
     learned.scans = static_cast<int>(scans_.size());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "tests/tracker/learning/scene.hpp"
@@ -33,6 +34,44 @@ TEST(Learning, FindsWhatNobodyHasSaid) {
     EXPECT_NEAR(sensor.clutter.value, 8.0, 1.2);
     EXPECT_NEAR(std::log(learned.classes.at("default").process_density.value), std::log(0.05), 1.0);
   }
+}
+
+// Property: few or many targets, slow or fast for their noise, among few or many false detections: the
+// scales are found. Their standard error is below 10 % where targets have 80 detections or more.
+TEST(Learning, FindsTheScalesOfAllKindsOfScenes) {
+  std::mt19937 random(3);
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<double>()(random));
+  };
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    LearningScene scene;
+    scene.noise_x = scene.noise_y = between(0.1, 10.0);
+    scene.targets = static_cast<int>(between(2.0, 20.0));
+    scene.speed = scene.noise_x * between(0.5, 10.0);
+    scene.process_density = scene.noise_x * scene.noise_x * between(0.002, 0.1);
+    scene.detection_probability = between(0.6, 0.98);
+    scene.clutter = between(0.1, 20.0);
+    scene.side = scene.noise_x * between(200.0, 800.0);
+    const LearnedTracker learned = learned_from(scene.record(seed), scene.period);
+    EXPECT_NEAR(std::log(learned.sensors[0].noise.x.value / scene.noise_x), 0.0, 0.35) << seed;
+    EXPECT_NEAR(learned.sensors[0].detection_probability.value, scene.detection_probability, 0.1)
+        << seed;
+  }
+}
+
+// Property: false detections are spread over their own area, however far targets go: only as many
+// are taken for targets as chance brings together there.
+TEST(Learning, FindsWhereFalseDetectionsLie) {
+  LearningScene scene;
+  scene.noise_x = scene.noise_y = 0.15;
+  scene.side = 70.0;
+  scene.clutter = 20.0;
+  scene.speed = 1.2;
+  scene.process_density = 5e-4;
+  scene.scans = 150;
+  const LearnedTracker learned = learned_from(scene.record(3), scene.period);
+  const double area = scene.side * scene.side;
+  EXPECT_NEAR(learned.sensors[0].area / area, 1.0, 0.3);
 }
 
 std::vector<Scan> scaled(std::vector<Scan> scans, double length, double time) {
