@@ -32,18 +32,20 @@ double mahalanobis_distance(const Prediction& prediction, const Detection& detec
 }
 
 DetectionGrid::DetectionGrid(std::span<const Detection> detections) {
-  std::vector<int> usable;
+  // Detections are large: they are read once, and what is needed of them is put side by side.
+  std::vector<Member> usable;
   usable.reserve(detections.size());
   for (int i = 0; i < static_cast<int>(detections.size()); ++i) {
-    if (is_usable(detections[i])) usable.push_back(i);
+    const Detection& detection = detections[i];
+    if (is_usable(detection)) usable.push_back({detection.position, detection.covariance, i});
   }
   if (usable.empty()) return;
-  corner_ = detections[usable.front()].position;
+  corner_ = usable.front().position;
   Eigen::Vector2d opposite = corner_;
-  for (const int i : usable) {
-    corner_ = corner_.cwiseMin(detections[i].position);
-    opposite = opposite.cwiseMax(detections[i].position);
-    largest_variance_ = largest_variance_.cwiseMax(detections[i].covariance.diagonal());
+  for (const Member& member : usable) {
+    corner_ = corner_.cwiseMin(member.position);
+    opposite = opposite.cwiseMax(member.position);
+    largest_variance_ = largest_variance_.cwiseMax(member.covariance.diagonal());
   }
   const int side = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(usable.size()))));
   columns_ = side;
@@ -56,8 +58,8 @@ DetectionGrid::DetectionGrid(std::span<const Detection> detections) {
   std::vector<int> cells;
   cells.reserve(usable.size());
   cell_start_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (const int i : usable) {
-    const Eigen::Vector2d& p = detections[i].position;
+  for (const Member& member : usable) {
+    const Eigen::Vector2d& p = member.position;
     cells.push_back(row_of(p.y()) * columns_ + column_of(p.x()));
     ++cell_start_[cells.back() + 1];
   }
@@ -66,10 +68,7 @@ DetectionGrid::DetectionGrid(std::span<const Detection> detections) {
   }
   members_.resize(usable.size());
   std::vector<int> next(cell_start_.begin(), cell_start_.end() - 1);
-  for (std::size_t i = 0; i < usable.size(); ++i) {
-    const Detection& detection = detections[usable[i]];
-    members_[next[cells[i]]++] = {detection.position, detection.covariance, usable[i]};
-  }
+  for (std::size_t i = 0; i < usable.size(); ++i) members_[next[cells[i]]++] = usable[i];
   for (std::size_t cell = 1; cell < cell_start_.size(); ++cell) {
     std::sort(members_.begin() + cell_start_[cell - 1], members_.begin() + cell_start_[cell],
               [](const Member& a, const Member& b) {

@@ -78,7 +78,9 @@ double surprise(const Track& track, const Gated& gated, const PlacedDetection& d
 
 void hit(Track& track, const PlacedDetection& found, const Scan& scan) {
   const bool is_used =
-      update(track.filter, scan.detections[static_cast<std::size_t>(found.detection)]);
+      std::holds_alternative<MotionFilter>(track.filter) || is_mixed(track)
+          ? update(track.filter, scan.detections[static_cast<std::size_t>(found.detection)])
+          : update(track.filter, found.position, found.covariance);
   note_detection(track, found, scan.time);
   if (!is_used) track.residual.reset();
 }
