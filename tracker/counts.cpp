@@ -10,7 +10,8 @@ namespace {
 /// Tracks that choose among the detections at the same time: those that are confirmed, or those
 /// that are not.
 struct Stage {
-  std::vector<std::size_t> tracks;  // row by row
+  std::vector<std::size_t> tracks;   // row by row
+  std::vector<std::size_t> sharing;  // those that have a rival
   CandidateTable table;
 
   explicit Stage(std::size_t expected) {
@@ -21,6 +22,7 @@ struct Stage {
 
   void add(std::size_t index, const Track& track, DetectionGrid& grid, double gate) {
     tracks.push_back(index);
+    if (track.shared > 0) sharing.push_back(index);
     grid.append_row(track.prediction, gate, table);
   }
 };
@@ -77,7 +79,7 @@ void step_by_counts(Look& look, TrackerState& state) {
   Pairing pairing(tracks.size(), members.size());
   assign(config, confirmed.tracks, confirmed.table, pairing);
   assign(config, tentative.tracks, still_free(tentative.table, pairing), pairing);
-  note_rivals(config.merge, confirmed.tracks, confirmed.table, pairing, tracks);
+  note_rivals(config.merge, confirmed.tracks, confirmed.sharing, confirmed.table, pairing, tracks);
   look.clock.finished(&StepTimes::associate);
 
   keep_if(tracks, [&](std::size_t i) {

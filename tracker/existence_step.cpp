@@ -23,6 +23,7 @@ struct Competition {
   CandidateTable table;
   std::vector<double> detection;  // of each track: probability that it had to be detected
   double log_missed = 0.0;        // ln of the probability that none is detected
+  std::vector<std::size_t> sharing;  // tracks that have a rival
 };
 
 /// Who decides at once has to give a track that is not likely yet the detections that would make it
@@ -40,13 +41,15 @@ Competition compete(Look& look, double nobodys, const std::vector<Track>& tracks
   result.table.candidates.reserve(2 * tracks.size());
   const double p = evidence.detection_probability;
   std::vector<Gated> gated;
-  for (const Track& track : tracks) {
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const Track& track = tracks[i];
+    if (track.shared > 0) result.sharing.push_back(i);
     const double r = std::max(least, *track.existence);  // that it claims
     const double due = is_due(track, look.sensor, look.scan.time) ? p : 0.0;
     const double missed = 1.0 - r * due;
     // odds: r p N(ν; 0, S) / (nobody's · (1 − r p))
     const double base = portable::log(2.0 * std::numbers::pi * nobodys * missed / (r * p));
-    look.grid.find_in_gate(track.reach, look.config().gate, gated);
+    look.grid.find_in_gate(reach(track), look.config().gate, gated);
     for (const Gated& near : gated) {
       const double cost = base + surprise(track, near, look.grid.members()[near.member]);
       if (cost < dearest) result.table.candidates.push_back({near.member, cost});
@@ -69,7 +72,7 @@ using Unused = std::vector<double>;
 
 /// One detection for one track: those of the likeliest assignment.
 Unused update_with_nearest(const Look& look, const Competition& competition, TrackerState& state) {
-  const auto& [table, detection, log_missed] = competition;
+  const auto& [table, detection, log_missed, sharing] = competition;
   const auto& members = look.grid.members();
   const auto count = static_cast<int>(members.size());
   std::vector<Track>& tracks = state.tracks;
@@ -83,7 +86,7 @@ Unused update_with_nearest(const Look& look, const Competition& competition, Tra
     pairing.pair(i, assignment[i]);
     rows[i] = i;
   }
-  note_rivals(look.config().merge, rows, table, pairing, tracks);
+  note_rivals(look.config().merge, rows, sharing, table, pairing, tracks);
   look.clock.finished(&StepTimes::associate);
 
   Unused unused(members.size(), 1.0);
@@ -139,7 +142,7 @@ void undo_swaps(const CandidateTable& table, int detections, std::vector<double>
 /// Every detection for every track, as probable as it is.
 Unused update_with_all(const Look& look, const Competition& competition,
                        std::vector<Track>& tracks, double& log_likelihood) {
-  const auto& [table, detection, log_missed] = competition;
+  const auto& [table, detection, log_missed, sharing] = competition;
   const auto& members = look.grid.members();
   const auto count = static_cast<int>(members.size());
   std::vector<double> odds;

@@ -139,7 +139,7 @@ class MultiScan {
     result.log_missed = portable::log(missed);
     const double base = portable::log(2.0 * std::numbers::pi * nobodys_ * missed / (r * p));
     std::vector<Gated> gated;
-    look_.grid.find_in_gate(track.reach, look_.config().gate, gated);
+    look_.grid.find_in_gate(reach(track), look_.config().gate, gated);
     for (const Gated& near : gated) {
       const double cost = base + surprise(track, near, members_[near.member]);
       if (cost < -portable::log(kLeastOddsConsidered)) result.candidates.push_back({near.member, cost});

@@ -35,11 +35,10 @@ void review(const MergeRule& rule, const Pairing& pairing, std::size_t index,
 }  // namespace
 
 void note_rivals(const MergeRule& rule, std::span<const std::size_t> rows,
-                 const CandidateTable& table, const Pairing& pairing, std::vector<Track>& tracks) {
+                 std::span<const std::size_t> sharing, const CandidateTable& table,
+                 const Pairing& pairing, std::vector<Track>& tracks) {
   if (rule.scans == 0) return;
-  for (const std::size_t row : rows) {
-    if (tracks[row].shared > 0) review(rule, pairing, row, tracks);
-  }
+  for (const std::size_t index : sharing) review(rule, pairing, index, tracks);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pairing.detection_of[rows[i]] != kMissed) continue;
     for (const Candidate& candidate : table.row(static_cast<int>(i))) {

@@ -17,10 +17,12 @@ namespace ghtrack {
 /// detection between them and expected it within the rule's distance. A scan with a detection for
 /// each starts the count anew, and so does one in which they have parted.
 /// @param rows     indices in `tracks` of the confirmed ones
+/// @param sharing  those of them that have a rival already
 /// @param table    the detections in their gates, row by row
 /// @param tracks   predicted to the time of the scan, in the order of birth
 void note_rivals(const MergeRule& rule, std::span<const std::size_t> rows,
-                 const CandidateTable& table, const Pairing& pairing, std::vector<Track>& tracks);
+                 std::span<const std::size_t> sharing, const CandidateTable& table,
+                 const Pairing& pairing, std::vector<Track>& tracks);
 
 /// Is it time to give up this track for its older rival?
 inline bool is_to_merge(const MergeRule& rule, const Track& track) {

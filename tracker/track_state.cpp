@@ -45,12 +45,14 @@ void predict(Track& track, double dt) {
             track.prediction.covariance + nominal_variance * Eigen::Matrix2d::Identity();
       },
       track.filter);
-  track.reach = track.prediction;
-  if (const auto* mixed = std::get_if<ImmFilter>(&track.filter)) {
-    track.reach.covariance = widest_covariance(*mixed);
-  }
   track.residual.reset();
   track.detection.reset();
+}
+
+Prediction reach(const Track& track) {
+  const auto* const mixed = std::get_if<ImmFilter>(&track.filter);
+  if (mixed == nullptr) return track.prediction;
+  return {track.prediction.position, widest_covariance(*mixed)};
 }
 
 Track begin_track(const Filter& filter, const Scan& scan, std::size_t index) {
@@ -62,7 +64,6 @@ Track begin_track(const Filter& filter, const Scan& scan, std::size_t index) {
               .filter = filter,
               .label = detection.label,
               .prediction = {detection.position, detection.covariance},
-              .reach = {detection.position, detection.covariance},
               .innovation_covariance = 2.0 * detection.covariance,
               .residual = {}};
   start(track.filter, detection.position, detection.covariance);
@@ -77,10 +78,9 @@ double surprise(const Track& track, const Gated& gated, const PlacedDetection& d
 }
 
 void hit(Track& track, const PlacedDetection& found, const Scan& scan) {
+  const Detection& detection = scan.detections[static_cast<std::size_t>(found.detection)];
   const bool is_used =
-      std::holds_alternative<MotionFilter>(track.filter) || is_mixed(track)
-          ? update(track.filter, scan.detections[static_cast<std::size_t>(found.detection)])
-          : update(track.filter, found.position, found.covariance);
+      update(track.filter, found.position, found.covariance, detection.measured);
   note_detection(track, found, scan.time);
   if (!is_used) track.residual.reset();
 }

@@ -29,13 +29,15 @@ struct Track {
   Filter filter;
   std::string label;                                                // of the first detection
   Prediction prediction;                                            // of this scan's detection
-  Prediction reach;                                                 // as far as that may lie
   Eigen::Matrix2d innovation_covariance = Eigen::Matrix2d::Zero();  // of this scan's residual [m²]
   std::optional<Eigen::Vector2d> residual;                          // of this scan's detection
 };
 
 /// Carries a track dt seconds on.
 void predict(Track& track, double dt);
+
+/// How far its next detection may lie: as the mode that knows least says, where several are mixed.
+Prediction reach(const Track& track);
 
 /// Starts a track at a detection.
 /// @param filter  waits for its first measurement

@@ -117,7 +117,7 @@ struct MergeRule {
 /// Probabilities of existence as in Musicki & Evans 2004 and Williams 2015.
 struct ExistenceConfig {
   double confirm = 0.5;
-  double doubt = 0.25;
+  double doubt = 0.4;
   double drop = 2e-4;
   std::optional<double> lifetime;  // mean time that a target stays [s]
   double births = 0.001;

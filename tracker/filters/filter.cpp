@@ -120,15 +120,20 @@ bool update(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& cov
   return std::visit([&](auto& f) { return f.update(z, covariance); }, filter);
 }
 
-bool update(Filter& filter, const Detection& detection) {
+bool update(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& covariance,
+            const std::optional<Measurement>& measured) {
   return std::visit(
       [&](auto& f) {
-        if constexpr (requires { f.update(*detection.measured); }) {
-          if (detection.measured && f.is_started()) return f.update(*detection.measured);
+        if constexpr (requires { f.update(*measured); }) {
+          if (measured && f.is_started()) return f.update(*measured);
         }
-        return f.update(detection.position, detection.covariance);
+        return f.update(z, covariance);
       },
       filter);
+}
+
+bool update(Filter& filter, const Detection& detection) {
+  return update(filter, detection.position, detection.covariance, detection.measured);
 }
 
 std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d& z,

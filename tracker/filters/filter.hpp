@@ -78,7 +78,10 @@ bool start(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& cova
 bool predict(Filter& filter, double dt);
 bool update(Filter& filter, const Eigen::Vector2d& z);
 bool update(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& covariance);
-/// With what the sensor measured, by filters that can make use of it; the others take the position.
+/// With what the sensor measured, by filters that can make use of it; the others take the position,
+/// and do not look at it.
+bool update(Filter& filter, const Eigen::Vector2d& z, const Eigen::Matrix2d& covariance,
+            const std::optional<Measurement>& measured);
 bool update(Filter& filter, const Detection& detection);
 /// ln N(r; 0, S) of the residual that this measurement has at estimate(), S as in
 /// innovation_covariance(); nothing if S is singular.

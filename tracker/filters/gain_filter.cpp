@@ -50,22 +50,24 @@ Gains larger(const Gains& a, const Gains& b) {
 }  // namespace
 
 template <int D>
+GainFilter<D>::Design::Design(const GainSchedule& gains, const ErrorModel& model)
+    : schedule(gains), errors(model) {
+  has_belief = gains.source == GainSource::kTable && is_stable(gains.steady) &&
+               (gains.irregular_time == IrregularTime::kGainsFromCovariance ||
+                std::isfinite(model.huber));
+  if (!has_belief) return;
+  implied = implied_noise(gains.steady, model.sigma, gains.interval);
+  settled = steady_covariance(implied, gains.steady.order, model.sigma, gains.interval);
+}
+
+template <int D>
 GainFilter<D>::GainFilter(const GainSchedule& schedule, const ErrorModel& errors)
-    : schedule_(schedule),
-      errors_(errors),
-      settled_{},
+    : design_(std::make_shared<const Design>(schedule, errors)),
       belief_(on_all_axes<Axes>({})),
       covariance_(belief_),
       noise_(belief_),
       used_{schedule.steady, schedule.interval},
-      interval_(schedule.interval) {
-  has_belief_ = schedule.source == GainSource::kTable && is_stable(schedule.steady) &&
-                (schedule.irregular_time == IrregularTime::kGainsFromCovariance ||
-                 std::isfinite(errors.huber));
-  if (!has_belief_) return;
-  implied_ = implied_noise(schedule.steady, errors.sigma, schedule.interval);
-  settled_ = steady_covariance(implied_, schedule.steady.order, errors.sigma, schedule.interval);
-}
+      interval_(schedule.interval) {}
 
 template <int D>
 GainFilter<D>::GainFilter(const Gains& gains, double dt, const Kinematics<D>& guess, double sigma,
@@ -89,33 +91,33 @@ void GainFilter<D>::start_from(const Kinematics<D>& guess) {
 template <int D>
 std::string_view GainFilter<D>::name() const {
   constexpr std::array<std::string_view, 3> kNames = {"order0", "gh", "ghk"};
-  return kNames[static_cast<std::size_t>(schedule_.steady.order)];
+  return kNames[static_cast<std::size_t>(design_->schedule.steady.order)];
 }
 
 template <int D>
 std::string GainFilter<D>::gains_text() const {
-  return to_text(schedule_.steady);
+  return to_text(design_->schedule.steady);
 }
 
 template <int D>
 bool GainFilter<D>::start(const Vector& z, const Matrix& covariance) {
   const Axes variance = covariance.diagonal().array();
   if (!z.allFinite() || !is_variance(variance)) return refuse_measurement();
-  const int order = schedule_.steady.order;
+  const int order = design_->schedule.steady.order;
   prior_ = estimate_ = Kinematics<D>{.position = z};
   residual_.reset();
   covariance_ = on_all_axes<Axes>({});
   covariance_.xx = variance;
-  if (order >= 1) covariance_.vv.setConstant(errors_.initial_speed * errors_.initial_speed);
+  if (order >= 1) covariance_.vv.setConstant(design_->errors.initial_speed * design_->errors.initial_speed);
   if (order >= 2) {
-    covariance_.aa.setConstant(errors_.initial_acceleration * errors_.initial_acceleration);
+    covariance_.aa.setConstant(design_->errors.initial_acceleration * design_->errors.initial_acceleration);
   }
   belief_ = noise_ = covariance_;
   elapsed_ = 0.0;
   updates_ = 1;
   misses_ = 0;
   started_ = true;
-  starting_up_ = schedule_.start_up != StartUp::kNone;
+  starting_up_ = design_->schedule.start_up != StartUp::kNone;
   on_schedule_ = true;
   return true;
 }
@@ -124,17 +126,17 @@ template <int D>
 bool GainFilter<D>::predict(double dt) {
   const Kinematics<D> next = extrapolated(estimate_, dt);
   AxisCovariance<Axes> covariance = extrapolated(covariance_, dt);
-  if (errors_.process_intensity > 0.0) {
-    covariance += on_all_axes<Axes>(process_noise(errors_.process_model, schedule_.steady.order,
-                                                  errors_.process_intensity, dt,
-                                                  errors_.renewal));
+  if (design_->errors.process_intensity > 0.0) {
+    covariance += on_all_axes<Axes>(process_noise(design_->errors.process_model, design_->schedule.steady.order,
+                                                  design_->errors.process_intensity, dt,
+                                                  design_->errors.renewal));
   }
   if (!(dt > 0.0) || !std::isfinite(dt) || !next.is_finite() || !is_finite(covariance)) {
     ++refusals_.times;
     return false;
   }
   if (!started_) return true;
-  if (has_belief_) carry_belief(dt);
+  if (design_->has_belief) carry_belief(dt);
   prior_ = estimate_ = next;
   covariance_ = covariance;
   noise_ = extrapolated(noise_, dt);
@@ -147,21 +149,21 @@ bool GainFilter<D>::predict(double dt) {
 /// While the steady gains of the table are due, the belief is known beforehand.
 template <int D>
 void GainFilter<D>::carry_belief(double dt) {
-  const bool on_time = schedule_.irregular_time != IrregularTime::kGainsFromCovariance ||
-                       schedule_.is_nominal(dt);
+  const bool on_time = design_->schedule.irregular_time != IrregularTime::kGainsFromCovariance ||
+                       design_->schedule.is_nominal(dt);
   if (is_steady() && on_time) return;
   if (!on_time) leave_schedule();
   belief_ = extrapolated(belief_, dt);
-  belief_ += on_all_axes<Axes>(implied_.over(dt));
+  belief_ += on_all_axes<Axes>(design_->implied.over(dt));
 }
 
 /// What the steady gains take the error to be now.
 template <int D>
 auto GainFilter<D>::settled_belief() const -> AxisCovariance<Axes> {
-  AxisCovariance<double> p = settled_;
+  AxisCovariance<double> p = design_->settled;
   if (elapsed_ > 0.0) {
     p = extrapolated(p, elapsed_);
-    p += implied_.over(elapsed_);
+    p += design_->implied.over(elapsed_);
   }
   return on_all_axes<Axes>(p);
 }
@@ -177,8 +179,8 @@ void GainFilter<D>::leave_schedule() {
 template <int D>
 void GainFilter<D>::return_to_schedule() {
   for (int axis = 0; axis < D; ++axis) {
-    if (!is_near(belief_.xx[axis], settled_.xx) || !is_near(belief_.vv[axis], settled_.vv) ||
-        !is_near(belief_.aa[axis], settled_.aa)) {
+    if (!is_near(belief_.xx[axis], design_->settled.xx) || !is_near(belief_.vv[axis], design_->settled.vv) ||
+        !is_near(belief_.aa[axis], design_->settled.aa)) {
       return;
     }
   }
@@ -189,15 +191,15 @@ void GainFilter<D>::return_to_schedule() {
 /// The gains that are due, and the time that they count from.
 template <int D>
 auto GainFilter<D>::scheduled() const -> Scheduled {
-  const bool has_law = !std::holds_alternative<ConstantLaw>(schedule_.law);
+  const bool has_law = !std::holds_alternative<ConstantLaw>(design_->schedule.law);
   const bool from_elapsed =
-      schedule_.irregular_time == IrregularTime::kGainsFromElapsed ||
-      (schedule_.irregular_time == IrregularTime::kGainsFromCovariance && has_law);
+      design_->schedule.irregular_time == IrregularTime::kGainsFromElapsed ||
+      (design_->schedule.irregular_time == IrregularTime::kGainsFromCovariance && has_law);
   const double interval = from_elapsed ? elapsed_ : interval_;
-  const Gains steady = schedule_.irregular_time == IrregularTime::kFixedGains
-                           ? schedule_.steady
-                           : schedule_.at(interval);
-  const int order = schedule_.steady.order;
+  const Gains steady = design_->schedule.irregular_time == IrregularTime::kFixedGains
+                           ? design_->schedule.steady
+                           : design_->schedule.at(interval);
+  const int order = design_->schedule.steady.order;
   const int n = updates_ + 1;
   if (!starting_up_) return {steady, interval};
   // A polynomial through the first points is the only unbiased choice, whatever the steady gains.
@@ -208,7 +210,7 @@ auto GainFilter<D>::scheduled() const -> Scheduled {
 template <int D>
 auto GainFilter<D>::as_scheduled(const AxisGain<Axes>& gain) const -> Scheduled {
   const double t = interval_;
-  return {{schedule_.steady.order, gain.x[0], gain.v[0] * t, 0.5 * gain.a[0] * t * t}, t};
+  return {{design_->schedule.steady.order, gain.x[0], gain.v[0] * t, 0.5 * gain.a[0] * t * t}, t};
 }
 
 /// Is the residual beyond the Huber limit, and to be shortened? It says nothing of outliers before
@@ -218,9 +220,9 @@ template <int D>
 bool GainFilter<D>::doubts(const Vector& residual, const AxisCovariance<Axes>& belief,
                            const Axes& variance) {
   constexpr int kMostInARow = 2;
-  if (!std::isfinite(errors_.huber) || updates_ <= schedule_.steady.order) return false;
+  if (!std::isfinite(design_->errors.huber) || updates_ <= design_->schedule.steady.order) return false;
   const double squared = (residual.array().square() / (belief.xx + variance)).sum();
-  const bool is_far = squared > errors_.huber * errors_.huber;
+  const bool is_far = squared > design_->errors.huber * design_->errors.huber;
   const bool repeats = far_in_a_row_ > 0 && residual.dot(last_far_) > 0.0;
   far_in_a_row_ = !is_far ? 0 : repeats ? far_in_a_row_ + 1 : 1;
   last_far_ = residual;
@@ -233,12 +235,12 @@ bool GainFilter<D>::update(const Vector& z, const Matrix& covariance) {
   const Axes variance = covariance.diagonal().array();
   if (!z.allFinite() || !is_variance(variance)) return refuse_measurement();
   const Vector residual = z - estimate_.position;
-  if (schedule_.source == GainSource::kCovariance) {
+  if (design_->schedule.source == GainSource::kCovariance) {
     return update_by(covariance_, z, variance, doubts(residual, covariance_, variance));
   }
   // A second sensor at the same instant has no place in a table.
   const bool same_instant = updates_ > 0 && elapsed_ == 0.0;
-  if (!has_belief_) {
+  if (!design_->has_belief) {
     return same_instant ? update_by(covariance_, z, variance, false) : update_by_table(z, variance);
   }
   const bool doubtful = doubts(residual, is_steady() ? settled_belief() : belief_, variance);
@@ -259,13 +261,13 @@ bool GainFilter<D>::update_by_table(const Vector& z, const Axes& variance) {
     return false;
   }
   used_ = due;
-  if (starting_up_ && has_belief_) {
+  if (starting_up_ && design_->has_belief) {
     belief_ = corrected(belief_, optimal_gain(belief_, variance), variance);
   }
-  const int steady_from = schedule_.start_up == StartUp::kTwoPoint ? 2 : gains.order + 1;
+  const int steady_from = design_->schedule.start_up == StartUp::kTwoPoint ? 2 : gains.order + 1;
   if (starting_up_ && updates_ >= steady_from) {
-    starting_up_ = schedule_.start_up == StartUp::kGrowingMemory &&
-                   !reaches(schedule_.steady, start_up_gains(gains.order, updates_));
+    starting_up_ = design_->schedule.start_up == StartUp::kGrowingMemory &&
+                   !reaches(design_->schedule.steady, start_up_gains(gains.order, updates_));
   }
   return true;
 }
@@ -280,7 +282,7 @@ bool GainFilter<D>::update_by(AxisCovariance<Axes>& belief, const Vector& z, con
   if (is_doubtful) {
     const Axes s = belief.xx + variance;
     const double distance = std::sqrt(((z - estimate_.position).array().square() / s).sum());
-    trusted = (distance / errors_.huber) * s - belief.xx;
+    trusted = (distance / design_->errors.huber) * s - belief.xx;
   }
   const AxisGain<Axes> gain = optimal_gain(belief, trusted);
   const bool is_own = &belief == &covariance_;
@@ -294,7 +296,7 @@ bool GainFilter<D>::update_by(AxisCovariance<Axes>& belief, const Vector& z, con
 template <int D>
 bool GainFilter<D>::update(const Vector& z, const Gains& gains) {
   if (!started_) return start(z);
-  const Axes variance = Axes::Constant(errors_.sigma * errors_.sigma);
+  const Axes variance = Axes::Constant(design_->errors.sigma * design_->errors.sigma);
   const bool used = correct(z, variance,
                             {Axes::Constant(gains.g), Axes::Constant(gains.h / interval_),
                              Axes::Constant(2.0 * gains.k / (interval_ * interval_))});
@@ -333,15 +335,15 @@ void GainFilter<D>::coast() {
 
 template <int D>
 void GainFilter<D>::adopt(const Knowledge<D>& known) {
-  const int order = schedule_.steady.order;
+  const int order = design_->schedule.steady.order;
   estimate_ = {.position = known.state.position};
   covariance_ = on_all_axes<Axes>({});
   covariance_.xx = known.covariance.xx;
   if (order >= 1) {
-    covariance_.vv.setConstant(errors_.initial_speed * errors_.initial_speed);
+    covariance_.vv.setConstant(design_->errors.initial_speed * design_->errors.initial_speed);
   }
   if (order >= 2) {
-    covariance_.aa.setConstant(errors_.initial_acceleration * errors_.initial_acceleration);
+    covariance_.aa.setConstant(design_->errors.initial_acceleration * design_->errors.initial_acceleration);
   }
   if (order >= 1 && known.order >= 1) {
     estimate_.velocity = known.state.velocity;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,9 +64,9 @@ class GainFilter {
   std::string_view name() const;
   /// "g=0.1 h=0.005".
   std::string gains_text() const;
-  const Gains& steady_gains() const { return schedule_.steady; }
-  double nominal_interval() const { return schedule_.interval; }
-  double sigma() const { return errors_.sigma; }
+  const Gains& steady_gains() const { return design_->schedule.steady; }
+  double nominal_interval() const { return design_->schedule.interval; }
+  double sigma() const { return design_->errors.sigma; }
 
   /// Takes the first measurement as the position; velocity and acceleration are unknown.
   bool start(const Vector& z, const Matrix& covariance);
@@ -91,7 +92,7 @@ class GainFilter {
   /// Goes on from what another filter knows at this instant; derivatives that it does not know are
   /// as uncertain as at first sight. The start-up is over.
   void adopt(const Knowledge<D>& known);
-  Knowledge<D> knowledge() const { return {schedule_.steady.order, estimate_, covariance_}; }
+  Knowledge<D> knowledge() const { return {design_->schedule.steady.order, estimate_, covariance_}; }
 
   bool is_started() const { return started_; }
   int updates() const { return updates_; }
@@ -124,11 +125,21 @@ class GainFilter {
   const AxisCovariance<Axes>& covariance() const { return covariance_; }
 
  private:
+  /// What does not change: copies of a filter share it.
+  struct Design {
+    GainSchedule schedule;
+    ErrorModel errors;
+    bool has_belief = false;              // a table that may be left
+    NoiseDensities implied = {};          // by its gains
+    AxisCovariance<double> settled = {};  // what belief_ is while the steady gains are used
+
+    Design(const GainSchedule& gains, const ErrorModel& model);
+  };
   struct Scheduled {
     Gains gains;
     double interval = 1.0;
   };
-  Matrix nominal_covariance() const { return errors_.sigma * errors_.sigma * Matrix::Identity(); }
+  Matrix nominal_covariance() const { return design_->errors.sigma * design_->errors.sigma * Matrix::Identity(); }
   Scheduled scheduled() const;
   Scheduled as_scheduled(const AxisGain<Axes>& gain) const;
   bool is_steady() const { return on_schedule_ && !starting_up_; }
@@ -143,12 +154,8 @@ class GainFilter {
   bool correct(const Vector& z, const Axes& variance, const AxisGain<Axes>& gain);
   bool refuse_measurement();
 
-  GainSchedule schedule_;
-  ErrorModel errors_;
-  bool has_belief_ = false;         // a table that may be left
-  NoiseDensities implied_ = {};     // by its gains
-  AxisCovariance<double> settled_;  // what belief_ is while the steady gains are used
-  AxisCovariance<Axes> belief_;     // that the gains follow off the table and while starting up
+  std::shared_ptr<const Design> design_;
+  AxisCovariance<Axes> belief_;  // that the gains follow off the table and while starting up
   Kinematics<D> prior_;
   Kinematics<D> estimate_;
   AxisCovariance<Axes> covariance_;
