@@ -114,7 +114,8 @@ std::set<std::string> confirmed_in(const fs::path& tracks) {
 // learned is said with intervals, and the configuration that is saved gives the same bytes again.
 TEST(OwnData, TracksWhatNobodyHasDescribed) {
   const TemporaryFolder folder;
-  for (const auto& [length, time] : {std::pair(1.0, 1.0), std::pair(1000.0, 0.125)}) {
+  for (const auto& [length, time] :
+       {std::pair(1.0, 1.0), std::pair(1000.0, 0.125), std::pair(1e12, 1e9)}) {
     write(folder.path() / "d.csv", aircraft(length, time));
     const Outcome learned =
         shell("ghtrack track d.csv -o learned.csv --save-config used.yaml", folder.path());
@@ -133,7 +134,6 @@ TEST(OwnData, TracksWhatNobodyHasDescribed) {
   EXPECT_EQ(confirmed_in(folder.path() / "online.csv").size(), 1U);
 }
 
-// Property: where nothing goes on, that is said, and what to set; and where times have been cut to
 // Property: what options say of the sensor and of the life of tracks, a configuration can say.
 TEST(OwnData, IsDescribedByOptionsOrByAFile) {
   const TemporaryFolder folder;
@@ -155,6 +155,7 @@ TEST(OwnData, IsDescribedByOptionsOrByAFile) {
   }
 }
 
+// Property: where nothing goes on, that is said, and what to set; and where times have been cut to
 // whole seconds, that.
 TEST(OwnData, SaysWhatIsMissing) {
   const TemporaryFolder folder;

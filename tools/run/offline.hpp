@@ -34,12 +34,12 @@ struct OfflineSensor {
             {.unit = "m",
              .meaning = "1-sigma error of a detection per axis",
              .above = 0.0,
-             .maximum = 1e12});
+             .maximum = 1e30});
     v.field("noise_y", &OfflineSensor::noise_y,
             {.unit = "m",
              .meaning = "the same along y, if it is another one",
              .above = 0.0,
-             .maximum = 1e12});
+             .maximum = 1e30});
     v.field("period", &OfflineSensor::period,
             {.unit = "s",
              .meaning = "time between scans; 0: the median of the file",
@@ -66,7 +66,7 @@ struct OfflineSensor {
              .meaning = "where there is no field of view: the area that false detections are "
                         "spread over; by default that of all detections",
              .above = 0.0,
-             .maximum = 1e24});
+             .maximum = 1e60});
     v.field("scan", &OfflineSensor::scan,
             {.meaning = "whether a scan shows the `whole` field of view, or `partial`: one object of "
                         "many, as a rotating radar or AIS does; 'period' is then the time between "
