@@ -53,6 +53,9 @@ class Mover {
                           int object) const;
   RigidBody body(const State& state, int index) const;
 
+  /// Whether it is a round body, which gives way unless it is held.
+  bool may_yield() const { return round_.mass > 0.0; }
+
   /// What matters of a round body when it is hit.
   /// @pre flight() is not null
   const RoundBody& round() const { return round_; }

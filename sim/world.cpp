@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "sim/encounter.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 constexpr double kMargin = 0.02;   // around swept boxes [m]
 constexpr double kInstant = 1e-9;  // two instants closer than this are one [s]
+constexpr double kSpace = 0.1;     // beside what sweeps for several steps [m]
+constexpr std::int64_t kLongestSpell = 16;
 
 /// Half of a part's size in any direction.
 double reach_of(const Outline& outline) {
@@ -26,12 +29,28 @@ double reach_of(const Outline& outline) {
   return 0.5 * std::hypot(outline.length, is_box ? outline.width : 0.0);
 }
 
-/// All parts of all targets that are there, as they move during a step.
+/// All parts of targets that are there, as they move during a step or several.
 struct Parts {
   std::vector<SweptBox> boxes;
   std::vector<int> part;  // of its owner
   bool any_yields = false;
+  std::size_t close = 0;  // of them, so many may meet another
 };
+
+bool is_inside(const SweptBox& box, const SweptBox& larger) {
+  return (box.low.array() >= larger.low.array()).all() &&
+         (box.high.array() <= larger.high.array()).all();
+}
+
+/// By time; of what happens at one instant, that to objects by themselves comes first, by their ids,
+/// and then what they do to each other, in its order.
+bool happens_before(const WorldEvent& a, const WorldEvent& b) {
+  const auto place = [](const WorldEvent& event) {
+    const bool meets = event.other >= 0;
+    return std::tuple(event.time, meets, meets ? 0 : event.object);
+  };
+  return place(a) < place(b);
+}
 
 }  // namespace
 
@@ -47,14 +66,19 @@ struct World::Scenery {
   std::vector<std::size_t> first_parts = {};
   std::vector<std::optional<std::size_t>> carriers = {};  // who lets go of it when it appears
   States states = {};
-  std::int64_t step = 0;  // the states hold at step / rate
+  std::vector<std::size_t> everyone = {};  // the indices of all targets
+  std::vector<double> arrivals = {};       // when they appear, ascending [s]
+  std::vector<Vec2> margins = {};          // around the centres of each target's parts [m]
+  bool any_may_meet = false;
+  std::int64_t step = 0;               // the states hold at step / rate
+  std::int64_t spell = kLongestSpell;  // steps to try at once
   double last_sample = 0.0;
   std::int64_t missed_collisions = 0;
   std::vector<Displacement> displacements = {};
   std::vector<WorldEvent> events = {};
   mutable Neighbourhood neighbourhood = {};  // its answers depend on what it is asked alone
 
-  /// What one step has brought about.
+  /// What a step has brought about, or several.
   struct Outcome {
     std::int64_t missed_collisions = 0;
     std::vector<Displacement> displacements;
@@ -66,11 +90,22 @@ struct World::Scenery {
   }
   Mover::State alone(const States& before, std::size_t target, double from, double to,
                      ImpactLog* log = nullptr) const;
-  Outcome advance(States& moved, double from, double to) const;
-  Parts parts_of(const States& before, const States& after, double from) const;
+  double time_of(std::int64_t index) const { return static_cast<double>(index) / rate; }
+  void go_on(std::int64_t last);
+  bool pass(std::int64_t steps);
+  void keep(Outcome&& outcome);
+  Outcome advance(States& moved, const std::vector<std::size_t>& targets, double from, double to,
+                  Parts* swept = nullptr) const;
+  void add_events(std::size_t target, const ImpactLog& log, std::vector<WorldEvent>& events) const;
+  void add_parts(const Mover::State& state, std::size_t target, Parts& parts) const;
+  void sweep(const Mover::State& state, std::size_t target, std::size_t first, bool yields,
+             Parts& parts) const;
+  Parts parts_of(const States& before, const States& after,
+                 const std::vector<std::size_t>& targets, double from) const;
+  static std::vector<std::size_t> targets_of(const Cluster& cluster, const Parts& parts);
   Participant participant(const States& before, const Parts& parts, std::size_t box) const;
-  std::int64_t settle_contacts(const States& before, States& after, double from, double to,
-                               Outcome* told = nullptr) const;
+  std::int64_t settle_contacts(const States& before, States& after, Parts& parts, double from,
+                               double to, Outcome* told = nullptr) const;
   ObjectId object_of(std::size_t target, int part) const {
     return first_objects[target] + (movers[target].objects() > 1 ? part : 0);
   }
@@ -97,55 +132,185 @@ Mover::State World::Scenery::alone(const States& before, std::size_t target, dou
   return state;
 }
 
-World::Scenery::Outcome World::Scenery::advance(States& moved, double from, double to) const {
-  const States before = moved;
-  bool arrivals = false;
+/// Goes on by a step, or by several where few targets come close to each other.
+void World::Scenery::go_on(std::int64_t last) {
+  std::int64_t steps = std::min(spell, last - step);
+  const auto arrival = std::upper_bound(arrivals.begin(), arrivals.end(), time_of(step));
+  while (steps > 1 && arrival != arrivals.end() && time_of(step + steps) >= *arrival) --steps;
+  if (steps > 1) {
+    const bool passed = pass(steps);
+    spell = passed ? std::min(2 * spell, kLongestSpell) : steps / 2;
+    if (passed) return;
+  }
+  Parts parts;
+  keep(advance(states, everyone, time_of(step), time_of(step + 1), &parts));
+  ++step;
+  if (spell <= 1) spell = 2 * parts.close > parts.boxes.size() ? 1 : 2;
+}
+
+/// Goes on by so many steps: who comes close to nobody by himself, the others step by step. Each
+/// goes the way that single steps of all would have led him.
+/// @returns false, with all as it was, where too many are close or one is thrown among others
+bool World::Scenery::pass(std::int64_t steps) {
+  States moved = states;
+  Parts parts;
+  std::vector<std::pair<std::size_t, ImpactLog>> logs;
+  ImpactLog log;
+  for (const std::size_t i : everyone) {
+    const std::size_t first = parts.boxes.size();
+    if (any_may_meet && is_there(moved[i], i, time_of(step))) add_parts(moved[i], i, parts);
+    for (std::int64_t k = step; k < step + steps; ++k) {
+      const bool yields = movers[i].flight(moved[i]) != nullptr;
+      movers[i].advance(moved[i], environment, time_of(k), time_of(k + 1),
+                        record.events ? &log : nullptr);
+      sweep(moved[i], i, first, yields, parts);
+    }
+    if (!log.empty()) logs.emplace_back(i, std::exchange(log, {}));
+  }
+  for (SweptBox& box : parts.boxes) {
+    box.low -= Vec2::Constant(kSpace);
+    box.high += Vec2::Constant(kSpace);
+  }
+  std::vector<std::size_t> close;
+  if (parts.any_yields) {
+    for (const Cluster& cluster : neighbourhood.clusters(parts.boxes)) {
+      const std::vector<std::size_t> targets = targets_of(cluster, parts);
+      close.insert(close.end(), targets.begin(), targets.end());
+    }
+  }
+  std::sort(close.begin(), close.end());
+  close.erase(std::unique(close.begin(), close.end()), close.end());
+  if (2 * close.size() > movers.size()) return false;
+
+  Outcome outcome;
+  if (!close.empty()) {
+    const auto last_bodies = static_cast<std::size_t>(movers.back().bodies());
+    std::vector<const SweptBox*> room(first_parts.back() + last_bodies, nullptr);  // by body
+    for (const SweptBox& box : parts.boxes) room[box.body] = &box;
+    States together = states;
+    for (std::int64_t k = step; k < step + steps; ++k) {
+      Parts swept;
+      Outcome next = advance(together, close, time_of(k), time_of(k + 1), &swept);
+      const auto is_in_room = [&](const SweptBox& box) {
+        return room[box.body] != nullptr && is_inside(box, *room[box.body]);
+      };
+      if (!std::all_of(swept.boxes.begin(), swept.boxes.end(), is_in_room)) return false;
+      outcome.missed_collisions += next.missed_collisions;
+      outcome.events.insert(outcome.events.end(), next.events.begin(), next.events.end());
+    }
+    for (const std::size_t i : close) moved[i] = std::move(together[i]);
+  }
+  for (const auto& [target, impacts] : logs) {
+    if (!std::binary_search(close.begin(), close.end(), target)) {
+      add_events(target, impacts, outcome.events);
+    }
+  }
+  states = std::move(moved);
+  step += steps;
+  std::stable_sort(outcome.events.begin(), outcome.events.end(), happens_before);
+  keep(std::move(outcome));
+  return true;
+}
+
+void World::Scenery::keep(Outcome&& outcome) {
+  missed_collisions += outcome.missed_collisions;
+  displacements.insert(displacements.end(), outcome.displacements.begin(),
+                       outcome.displacements.end());
+  events.insert(events.end(), outcome.events.begin(), outcome.events.end());
+}
+
+World::Scenery::Outcome World::Scenery::advance(States& moved,
+                                                const std::vector<std::size_t>& targets,
+                                                double from, double to, Parts* swept) const {
+  States before(moved.size());
+  for (const std::size_t i : targets) before[i] = moved[i];
+  bool arrived = false;
   Outcome outcome;
   ImpactLog log;
-  for (std::size_t i = 0; i < movers.size(); ++i) {
+  for (const std::size_t i : targets) {
     ImpactLog* const told = record.events ? &log : nullptr;
     if (carriers[i]) {
       moved[i] = alone(before, i, from, to, told);
     } else {
       movers[i].advance(moved[i], environment, from, to, told);
     }
-    arrivals = arrivals || before[i].index() != moved[i].index();
-    for (const Impact& impact : log) {
-      outcome.events.push_back(
-          {impact.time, impact.kind, first_objects[i] + impact.object, -1,
-           impact.surface < 0 ? std::string() : environment.surface_name(impact.surface),
-           impact.position, impact.impulse});
-    }
+    arrived = arrived || before[i].index() != moved[i].index();
+    add_events(i, log, outcome.events);
     log.clear();
   }
-  if (from < to) {
+  if (from < to && any_may_meet) {
+    Parts parts = parts_of(before, moved, targets, from);
     outcome.missed_collisions =
-        settle_contacts(before, moved, from, to, record.events ? &outcome : nullptr);
+        settle_contacts(before, moved, parts, from, to, record.events ? &outcome : nullptr);
+    if (swept != nullptr) *swept = std::move(parts);
   }
-  if (arrivals) outcome.displacements = place_arrivals(before, moved, to);
-  std::stable_sort(outcome.events.begin(), outcome.events.end(),
-                   [](const WorldEvent& a, const WorldEvent& b) { return a.time < b.time; });
+  if (arrived) outcome.displacements = place_arrivals(before, moved, to);
+  std::stable_sort(outcome.events.begin(), outcome.events.end(), happens_before);
   return outcome;
 }
 
-Parts World::Scenery::parts_of(const States& before, const States& after, double from) const {
+void World::Scenery::add_events(std::size_t target, const ImpactLog& log,
+                                std::vector<WorldEvent>& told) const {
+  for (const Impact& impact : log) {
+    told.push_back({impact.time, impact.kind, first_objects[target] + impact.object,
+                    impact.other < 0 ? -1 : first_objects[target] + impact.other,
+                    impact.surface < 0 ? std::string() : environment.surface_name(impact.surface),
+                    impact.position, impact.impulse});
+  }
+}
+
+/// Enters the parts of a target where they are.
+void World::Scenery::add_parts(const Mover::State& state, std::size_t target, Parts& parts) const {
+  const Mover& mover = movers[target];
+  const bool yields = mover.flight(state) != nullptr;
+  parts.any_yields = parts.any_yields || yields;
+  for (int part = 0; part < mover.bodies(); ++part) {
+    const Vec2 position = mover.body(state, part).position;
+    parts.boxes.push_back({first_parts[target] + static_cast<std::size_t>(part),
+                           position - margins[target], position + margins[target], yields,
+                           static_cast<int>(target),
+                           carriers[target] ? static_cast<int>(*carriers[target]) : -1});
+    parts.part.push_back(part);
+  }
+}
+
+/// Widens the boxes of a target, from the first of them on, to where its parts have come.
+/// @param yields  whether they give way on the way
+void World::Scenery::sweep(const Mover::State& state, std::size_t target, std::size_t first,
+                           bool yields, Parts& parts) const {
+  parts.any_yields = parts.any_yields || yields;
+  for (std::size_t i = first; i < parts.boxes.size(); ++i) {
+    const Vec2 position = movers[target].body(state, parts.part[i]).position;
+    SweptBox& box = parts.boxes[i];
+    box.yields = box.yields || yields;
+    box.low = box.low.cwiseMin(position - margins[target]);
+    box.high = box.high.cwiseMax(position + margins[target]);
+  }
+}
+
+Parts World::Scenery::parts_of(const States& before, const States& after,
+                               const std::vector<std::size_t>& targets, double from) const {
   Parts parts;
-  for (std::size_t i = 0; i < movers.size(); ++i) {
+  for (const std::size_t i : targets) {
     if (!is_there(before[i], i, from)) continue;
-    const Vec2 margin = Vec2::Constant(kMargin + reach_of(movers[i].contact().outline));
-    const bool yields = movers[i].flight(before[i]) != nullptr;
-    parts.any_yields = parts.any_yields || yields;
-    for (int part = 0; part < movers[i].bodies(); ++part) {
-      const Vec2 begin = movers[i].body(before[i], part).position;
-      const Vec2 end = movers[i].body(after[i], part).position;
-      parts.boxes.push_back({first_parts[i] + static_cast<std::size_t>(part),
-                             begin.cwiseMin(end) - margin, begin.cwiseMax(end) + margin, yields,
-                             static_cast<int>(i),
-                             carriers[i] ? static_cast<int>(*carriers[i]) : -1});
-      parts.part.push_back(part);
-    }
+    const std::size_t first = parts.boxes.size();
+    add_parts(before[i], i, parts);
+    sweep(after[i], i, first, false, parts);
   }
   return parts;
+}
+
+/// The targets in a cluster, ascending.
+std::vector<std::size_t> World::Scenery::targets_of(const Cluster& cluster, const Parts& parts) {
+  std::vector<std::size_t> targets;
+  for (const auto* boxes : {&cluster.yielding, &cluster.unyielding}) {
+    for (const std::size_t box : *boxes) {
+      targets.push_back(static_cast<std::size_t>(parts.boxes[box].owner));
+    }
+  }
+  std::sort(targets.begin(), targets.end());
+  targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
+  return targets;
 }
 
 Participant World::Scenery::participant(const States& before, const Parts& parts,
@@ -155,9 +320,8 @@ Participant World::Scenery::participant(const States& before, const Parts& parts
   return {&movers[owner], before[owner], parts.part[box], swept.owner, swept.carrier};
 }
 
-std::int64_t World::Scenery::settle_contacts(const States& before, States& after, double from,
-                                             double to, Outcome* told) const {
-  Parts parts = parts_of(before, after, from);
+std::int64_t World::Scenery::settle_contacts(const States& before, States& after, Parts& parts,
+                                             double from, double to, Outcome* told) const {
   if (!parts.any_yields || parts.boxes.size() < 2) return 0;
   const auto by_name = [&](std::size_t a, std::size_t b) {
     const auto name = [&](std::size_t i) {
@@ -173,7 +337,9 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
     bool left = false;
     std::vector<std::pair<std::size_t, Mover::State>> changed;
     std::vector<WorldEvent> met;
+    parts.close = 0;
     for (Cluster& cluster : neighbourhood.clusters(parts.boxes)) {
+      parts.close += cluster.yielding.size() + cluster.unyielding.size();
       // In an order that does not depend on what else is in the world.
       std::sort(cluster.yielding.begin(), cluster.yielding.end(), by_name);
       std::sort(cluster.unyielding.begin(), cluster.unyielding.end(), by_name);
@@ -279,20 +445,14 @@ std::vector<Displacement> World::Scenery::place_arrivals(const States& before, S
   for (std::size_t i = 0; i < movers.size(); ++i) {
     if (is_new(i)) place(i, {});
   }
-  const Parts parts = parts_of(after, after, to);
+  const Parts parts = parts_of(after, after, everyone, to);
   for (const Cluster& cluster : neighbourhood.clusters(parts.boxes)) {
-    std::vector<std::size_t> targets;
-    for (const auto* boxes : {&cluster.yielding, &cluster.unyielding}) {
-      for (const std::size_t box : *boxes) {
-        targets.push_back(static_cast<std::size_t>(parts.boxes[box].owner));
-      }
-    }
-    std::sort(targets.begin(), targets.end());
-    targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
     // A newcomer gives way to all that is there; if it cannot, that does.
     std::vector<std::size_t> there;
     std::vector<std::size_t> newcomers;
-    for (const std::size_t i : targets) (is_new(i) ? newcomers : there).push_back(i);
+    for (const std::size_t i : targets_of(cluster, parts)) {
+      (is_new(i) ? newcomers : there).push_back(i);
+    }
     for (const std::size_t i : newcomers) {
       if (movers[i].flight(after[i]) != nullptr) {
         place(i, there);
@@ -353,6 +513,8 @@ World::World(const WorldConfig& config, std::uint64_t seed)
     if (target.released_by) carrier = indices.at(*target.released_by);
     scenery.first_objects.push_back(static_cast<ObjectId>(objects_.size()));
     scenery.first_parts.push_back(parts);
+    scenery.arrivals.push_back(target.appears);
+    scenery.margins.push_back(Vec2::Constant(kMargin + reach_of(mover.contact().outline)));
     parts += static_cast<std::size_t>(mover.bodies());
     for (int part = 0; part < mover.objects(); ++part) {
       const std::string name =
@@ -362,9 +524,17 @@ World::World(const WorldConfig& config, std::uint64_t seed)
                           mover.contact().outline});
     }
   }
-  scenery.displacements = scenery.advance(scenery.states, 0.0, 0.0).displacements;
+  scenery.everyone.resize(targets.size());
+  std::iota(scenery.everyone.begin(), scenery.everyone.end(), std::size_t{0});
+  std::sort(scenery.arrivals.begin(), scenery.arrivals.end());
+  scenery.any_may_meet =
+      parts > 1 && std::any_of(scenery.movers.begin(), scenery.movers.end(),
+                               [](const Mover& mover) { return mover.may_yield(); });
+  scenery.displacements =
+      scenery.advance(scenery.states, scenery.everyone, 0.0, 0.0).displacements;
   const Scenery::States begun = scenery.states;
-  scenery.settle_contacts(begun, scenery.states, 0.0, 0.0);
+  Parts begun_parts = scenery.parts_of(begun, begun, scenery.everyone, 0.0);
+  scenery.settle_contacts(begun, scenery.states, begun_parts, 0.0, 0.0);
 }
 
 World::World(World&&) noexcept = default;
@@ -386,19 +556,11 @@ TruthSnapshot World::sample(double time) {
   }
   scenery.last_sample = time;
   const auto wanted = static_cast<std::int64_t>(std::floor((time + kInstant) * scenery.rate));
-  for (; scenery.step < wanted; ++scenery.step) {
-    const Scenery::Outcome outcome =
-        scenery.advance(scenery.states, static_cast<double>(scenery.step) / scenery.rate,
-                        static_cast<double>(scenery.step + 1) / scenery.rate);
-    scenery.missed_collisions += outcome.missed_collisions;
-    scenery.displacements.insert(scenery.displacements.end(), outcome.displacements.begin(),
-                                 outcome.displacements.end());
-    scenery.events.insert(scenery.events.end(), outcome.events.begin(), outcome.events.end());
-  }
-  const double now = static_cast<double>(scenery.step) / scenery.rate;
+  while (scenery.step < wanted) scenery.go_on(wanted);
+  const double now = scenery.time_of(scenery.step);
   if (time - now <= kInstant) return scenery.snapshot(scenery.states, time);
   Scenery::States between = scenery.states;
-  scenery.advance(between, now, time);
+  scenery.advance(between, scenery.everyone, now, time);
   return scenery.snapshot(between, time);
 }
 

@@ -39,6 +39,7 @@ struct Impact {
   Vec2 impulse = Vec2::Zero();    // that the body received [N s]
   EventKind kind = EventKind::kContact;
   int object = 0;                 // of the target's, where it has several
+  int other = -1;                 // another one of the target's, if it has to do with that
 };
 using ImpactLog = std::vector<Impact>;
 

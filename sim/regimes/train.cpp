@@ -379,6 +379,26 @@ double TrainModel::pressed(const State& state) const {
   return state.place[front_] + 0.5 * train_.car_length - train_.buffer_stop->place;
 }
 
+/// A group of cars and what is coupled to it on one side.
+TrainModel::Consist TrainModel::consist_of(const State& state, std::size_t group,
+                                           bool ahead) const {
+  const auto end_of = [&](std::size_t g) {
+    return g == 0 ? static_cast<std::size_t>(train_.cars) : meetings_[g - 1].ahead + 1;
+  };
+  Consist consist;
+  for (;;) {
+    for (std::size_t unit = group == 0 ? 0 : end_of(group - 1); unit < end_of(group); ++unit) {
+      consist.inertia += masses_[unit] * train_.rotating_mass;
+      consist.momentum += masses_[unit] * train_.rotating_mass * state.speed[unit];
+    }
+    if (ahead ? group == meetings_.size() || !state.joined[group]
+              : group == 0 || !state.joined[group - 1]) {
+      return consist;
+    }
+    group = ahead ? group + 1 : group - 1;
+  }
+}
+
 /// Couples groups that have touched.
 void TrainModel::join(State& state, double time, ImpactLog* log) const {
   for (std::size_t i = 0; i < meetings_.size(); ++i) {
@@ -386,9 +406,17 @@ void TrainModel::join(State& state, double time, ImpactLog* log) const {
     if (state.joined[i] || !meeting.couples || gap(state, meeting) > 0.0) continue;
     state.joined[i] = true;
     if (log == nullptr) continue;
-    const int object = train_.track_every_car ? static_cast<int>(meeting.behind) : 0;
-    log->push_back({time, -1, track_.at(state.place[meeting.behind]).position, Vec2::Zero(),
-                    EventKind::kCoupling, object});
+    // What passes between the two until all that hangs together runs at its common speed.
+    const Consist behind = consist_of(state, i, false);
+    const Consist ahead = consist_of(state, i + 1, true);
+    const double passed = (behind.inertia * ahead.momentum - ahead.inertia * behind.momentum) /
+                          (behind.inertia + ahead.inertia);
+    const TrackPoint point = track_.at(state.place[meeting.behind]);
+    const portable::SinCos heading = portable::sin_cos(point.heading);
+    const bool every_car = train_.track_every_car;
+    log->push_back({time, -1, point.position, passed * Vec2(heading.cos, heading.sin),
+                    EventKind::kCoupling, every_car ? static_cast<int>(meeting.behind) : 0,
+                    every_car ? static_cast<int>(meeting.ahead) : -1});
   }
 }
 

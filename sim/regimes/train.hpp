@@ -426,6 +426,10 @@ class TrainModel {
     std::size_t ahead;
     bool couples;
   };
+  struct Consist {  // what is coupled
+    double inertia = 0.0;   // with that of its wheels [kg]
+    double momentum = 0.0;  // the same [kg m/s]
+  };
   struct Effort {                                       // what the driver demands of the train
     double force = 0.0;                                 // traction [N]
     double braking = 0.0;                               // deceleration by the brakes [m/s²]
@@ -451,6 +455,7 @@ class TrainModel {
   void add_forces_ahead(const State& state, std::vector<double>& forces) const;
   double gap(const State& state, const Meeting& meeting) const;
   double pressed(const State& state) const;
+  Consist consist_of(const State& state, std::size_t group, bool ahead) const;
   void join(State& state, double time, ImpactLog* log) const;
   std::vector<double> accelerations(const State& state, double time,
                                     const std::vector<double>& directions) const;

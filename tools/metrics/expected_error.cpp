@@ -13,7 +13,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kSmall = 0.1;  // of a sigma: so far beside the prediction no limit is near
-constexpr int kProbed = 5;      // the update at which a filter is asked whether it has a limit
+constexpr int kSettled = 5;     // updates after which filters with a limit use it
 constexpr std::size_t kShadows = 16;
 
 using Vector6 = ExpectedError::Vector6;
@@ -90,6 +90,24 @@ bool has_own_gains(const MultipleModelFilter&) { return false; }
 bool has_own_gains(const ImmFilter&) { return false; }
 bool has_own_gains(const auto&) { return true; }
 
+/// Whether a filter that has settled answers a residual of 100 sigma by less than in proportion.
+bool has_limit(Filter filter, double sigma) {
+  const Eigen::Matrix2d accuracy = sigma * sigma * Eigen::Matrix2d::Identity();
+  constexpr double kInterval = 1.0;  // any will do [s]
+  start(filter, Vec2::Zero(), accuracy);
+  for (int i = 0; i < kSettled; ++i) {
+    predict(filter, kInterval);
+    update(filter, Vec2::Zero(), accuracy);
+  }
+  predict(filter, kInterval);
+  const auto answer_to = [&](double residual) {
+    Filter moved = filter;
+    update(moved, Vec2(residual, 0.0), accuracy);
+    return estimate(moved).position.x();
+  };
+  return answer_to(100.0 * sigma) < 500.0 * answer_to(kSmall * sigma);
+}
+
 /// As a Stream's step: so many numbers apart for each shadow.
 std::uint64_t step_of(int updates, std::size_t shadow) {
   return static_cast<std::uint64_t>(updates) * kShadows + shadow;
@@ -101,8 +119,9 @@ ExpectedError::ExpectedError(const Filter& fresh, const TruthState& truth,
                              const SensedDetection& first, double time, std::uint64_t key)
     : time_(time),
       filter_(fresh),
-      is_linear_(std::visit([](const auto& f) { return has_own_gains(f); }, fresh)),
-      shadows_(kShadows, fresh),
+      is_linear_(std::visit([](const auto& f) { return has_own_gains(f); }, fresh) &&
+                 !has_limit(fresh, std::sqrt(0.5 * first.detection.covariance.trace()))),
+      shadows_(is_linear_ && !has_heavy_tails(first) ? 0 : kShadows, fresh),
       key_(key) {
   const std::optional<Detection> mean = shown(first, truth.position);
   is_known_ = mean && !first.errors.empty();
@@ -174,12 +193,6 @@ void ExpectedError::update(const TruthState& truth, const SensedDetection& used)
     const Vector6 still = answer_to(*here);  // no zero where the sensor has a bias
     gain << (answer_to(*right) - still) / step, (answer_to(*above) - still) / step;
   }
-  if (updates_ == kProbed) {
-    const double far = step / (kSmall * kSmall * kSmall);
-    is_linear_ = answer_to(beside({far, 0.0}))[0] > 0.5 * far * gain(0, 0);
-    if (is_linear_ && !has_heavy_tails(used)) shadows_.clear();
-  }
-
   const Eigen::Matrix2d position = covariance_.topLeftCorner<2, 2>();
   const Eigen::Matrix2d noise = mean_factor(used.errors) * told;
   const Eigen::Matrix2d s = position + noise;

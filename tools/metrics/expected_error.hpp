@@ -86,8 +86,8 @@ class ExpectedError {
   Matrix6 echoes_ = Matrix6::Zero();  // Σ u uᵀ over the scans, u = P e_x / √P_xx carried on
   Matrix6 residual_echoes_ = Matrix6::Zero();  // the same of u = (P' Hᵀ − K S) e_x / √S_xx
   std::optional<Value::Innovation> innovation_;
-  bool is_linear_;               // as far as is known: filter_ tells all
-  std::vector<Filter> shadows_;  // shown noise; none once the filter is known to be linear
+  bool is_linear_;               // filter_ tells all
+  std::vector<Filter> shadows_;  // shown noise; none where they are not needed
   std::uint64_t key_;
 };
 

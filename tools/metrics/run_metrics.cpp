@@ -77,6 +77,10 @@ void RunMetrics::add_tracks(const StepRecord& record) {
   following_.update(record);
 
   const std::vector<std::optional<std::size_t>> chosen = choose_tracks(record);
+  std::vector<bool> is_detected(objects_.size(), false);
+  for (const ObjectId origin : record.observation.origins) {
+    if (origin != kClutterOrigin) is_detected.at(static_cast<std::size_t>(origin)) = true;
+  }
   latest_errors_.assign(objects_.size(), std::nullopt);
   for (const TruthState& truth : record.truth.objects) {
     const auto object = static_cast<std::size_t>(truth.id);
@@ -85,7 +89,7 @@ void RunMetrics::add_tracks(const StepRecord& record) {
     tally.last_time = record.truth.time;
     ++tally.scans;
     if (chosen[object]) {
-      follow(truth, record.tracks.tracks[*chosen[object]], record);
+      follow(truth, record.tracks.tracks[*chosen[object]], record, is_detected[object]);
     } else {
       lose(tally);
     }
@@ -94,7 +98,7 @@ void RunMetrics::add_tracks(const StepRecord& record) {
 
 /// Scores a track in a scan, unless it has lost its object.
 void RunMetrics::follow(const TruthState& truth, const TrackEstimate& track,
-                        const StepRecord& record) {
+                        const StepRecord& record, bool is_detected) {
   ObjectTally& tally = tallies_[static_cast<std::size_t>(truth.id)];
   if (tally.track && tally.track != track.id) {
     ++tally.track_changes;
@@ -102,9 +106,7 @@ void RunMetrics::follow(const TruthState& truth, const TrackEstimate& track,
   }
   tally.track = track.id;
 
-  const std::vector<ObjectId>& origins = record.observation.origins;
   const bool is_used = used_object(track, record.observation) == truth.id;
-  const bool is_detected = std::find(origins.begin(), origins.end(), truth.id) != origins.end();
   if (is_used) {
     count_doubtful(tally);
     tally.ignored = 0;

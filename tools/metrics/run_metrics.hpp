@@ -190,7 +190,8 @@ class RunMetrics final : public RunObserver {
 
   void score_sets(const StepRecord& record);
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
-  void follow(const TruthState& truth, const TrackEstimate& track, const StepRecord& record);
+  void follow(const TruthState& truth, const TrackEstimate& track, const StepRecord& record,
+              bool is_detected);
   ScanScore score_of(const TruthState& truth, const TrackEstimate& track, double time) const;
   void count(ObjectTally& tally, const ScanScore& score) const;
   void count_doubtful(ObjectTally& tally) const;
