@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kPatience = 100;    // sweeps in which the change must halve
 constexpr double kExact = 1e-11;  // of the largest rate
-constexpr int kFirstLeap = 8;     // sweeps before the first leap; each later one after twice as many
+constexpr int kLeapEvery = 8;     // sweeps
 constexpr std::size_t kMostUnknowns = 100;  // of a leap
 
 /// One touch at work on its bodies.
@@ -65,11 +65,33 @@ class Row {
     apply(push, grip, couple);
   }
 
-  /// Takes what was added into the touch.
-  void keep() {
-    touch_.push += added_[0];
-    touch_.grip += added_[1];
-    touch_.couple += added_[2];
+  /// The part of what was added, at most all, with which no free force passes its bound.
+  double possible_part() const {
+    const auto [push, grip, couple] = added_;
+    double part = 1.0;
+    // Of force + x × more ≥ 0
+    const auto limit = [&part](double force, double more) {
+      if (force + more < 0.0) part = std::min(part, std::max(0.0, force) / -more);
+    };
+    if (!touch_.holds) limit(touch_.push, push);
+    if (is_free(Unknown::kGrip)) {
+      limit(touch_.friction * touch_.push - touch_.grip, touch_.friction * push - grip);
+      limit(touch_.friction * touch_.push + touch_.grip, touch_.friction * push + grip);
+      if (touch_.slip != 0.0) limit(std::abs(touch_.grip), touch_.grip > 0.0 ? grip : -grip);
+    }
+    if (is_free(Unknown::kCouple)) {
+      const double arm = touch_.rolling * one_.radius;
+      limit(arm * touch_.push - touch_.couple, arm * push - couple);
+      limit(arm * touch_.push + touch_.couple, arm * push + couple);
+    }
+    return part;
+  }
+
+  /// Takes a part of what was added into the touch.
+  void keep(double part) {
+    touch_.push += part * added_[0];
+    touch_.grip += part * added_[1];
+    touch_.couple += part * added_[2];
     added_ = {0.0, 0.0, 0.0};
   }
   void forget() { added_ = {0.0, 0.0, 0.0}; }
@@ -166,8 +188,9 @@ void eliminate(std::vector<double>& a, std::vector<double>& b) {
   b = x;
 }
 
-/// Goes to where the forces that are at no bound hold what they should, if all others stay at
-/// theirs: where these are right, that is the answer.
+/// Goes towards where the forces that are at no bound hold what they should, if all others stay at
+/// theirs, until one of them comes to its bound. If none does and the others are right, that is the
+/// answer.
 void leap(std::vector<Pushed>& bodies, std::vector<Row>& rows) {
   struct Place {
     std::size_t row;
@@ -199,7 +222,13 @@ void leap(std::vector<Pushed>& bodies, std::vector<Row>& rows) {
   for (std::size_t j = 0; j < size; ++j) {
     rows[unknowns[j].row].add(unknowns[j].unknown, wanted[j]);
   }
-  for (Row& row : rows) row.keep();
+  double part = 1.0;
+  for (const Row& row : rows) part = std::min(part, row.possible_part());
+  for (Row& row : rows) row.keep(part);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].rate = before[i].rate + part * (bodies[i].rate - before[i].rate);
+    bodies[i].spin_rate = before[i].spin_rate + part * (bodies[i].spin_rate - before[i].spin_rate);
+  }
 }
 
 }  // namespace
@@ -212,6 +241,7 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, in
   std::vector<Row> rows;
   rows.reserve(touches.size());
   for (Touch& touch : touches) {
+    largest = std::max(largest, std::abs(touch.normal_offset));
     rows.emplace_back(bodies, touch).apply(touch.push, touch.grip, touch.couple);
   }
   // Up and down in turn: what leans on what is not known.
@@ -222,11 +252,9 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, in
   std::vector<Touch> touches_before;
   double change_before = 0.0;
   double change = 0.0;
-  int next_leap = kFirstLeap;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    const bool leaps = sweep == next_leap;
+    const bool leaps = sweep % kLeapEvery == 0 && sweep > 0;
     if (leaps) {
-      next_leap *= 2;
       bodies_before = bodies;
       touches_before = touches;
       change_before = change;

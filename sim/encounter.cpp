@@ -628,26 +628,32 @@ class Encounter {
                passing);
   }
 
-  /// Moves bodies that press each other back to touching: the error of the step.
+  /// Moves bodies that press each other back to touching, the lighter ones more: the error of the
+  /// step. Overlaps go before gaps.
   void close_gaps(std::vector<FlightState>& states, const Heap& heap,
                   const std::vector<Passer>& passing) const {
-    constexpr int kMostSweeps = 50;
-    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    constexpr int kMostRounds = 5;     // normals turn with what is shifted
+    constexpr double kSeen = 1e-5;     // what presses is no farther apart [m]
+    constexpr double kExact = 1e-14;   // [m]
+    for (int round = 0; round < kMostRounds; ++round) {
+      std::vector<Pushed> pushed = pushed_by(heap);
+      std::vector<Touch> touches(heap.pairs.size());
       double worst = 0.0;
       for (std::size_t i = 0; i < heap.pairs.size(); ++i) {
         const Pair& pair = heap.pairs[i];
         const Gap there = gap_in_heap(states, heap, pair, passing);
-        const bool presses = heap.touches[i].push > 0.0;
-        if (there.distance > 0.0 && !(presses && there.distance < 1e-5)) continue;
-        worst = std::max(worst, std::abs(there.distance));
-        const double first = 1.0 / bodies_[at(pair.one)].mass;
-        const double second =
-            pair.kind == Partner::kRound ? 1.0 / bodies_[at(pair.other)].mass : 0.0;
-        const Vec2 shift = -there.distance / (first + second) * there.normal;
-        states[heap.index(pair.one)].position += first * shift;
-        if (second > 0.0) states[heap.index(pair.other)].position -= second * shift;
+        const bool presses = heap.touches[i].push > 0.0 && there.distance < kSeen;
+        Touch& touch = touches[i];
+        touch.one = heap.place[at(pair.one)];
+        touch.other = pair.kind == Partner::kRound ? heap.place[at(pair.other)] : -1;
+        touch.normal = there.normal;
+        touch.normal_offset = there.distance;
+        touch.holds = round == 0 && presses;
+        worst = std::max(worst, touch.holds ? std::abs(there.distance) : -there.distance);
       }
-      if (worst < 1e-13) break;
+      if (worst < kExact) break;
+      solve_contacts(pushed, touches, kForceSweeps);
+      for (std::size_t i = 0; i < states.size(); ++i) states[i].position += pushed[i].rate;
     }
   }
 

@@ -72,6 +72,7 @@ struct World::Scenery {
   bool any_may_meet = false;
   std::int64_t step = 0;               // the states hold at step / rate
   std::int64_t spell = kLongestSpell;  // steps to try at once
+  std::int64_t single_steps = 0;       // to go before that is tried again
   double last_sample = 0.0;
   std::int64_t missed_collisions = 0;
   std::vector<Displacement> displacements = {};
@@ -137,15 +138,17 @@ void World::Scenery::go_on(std::int64_t last) {
   std::int64_t steps = std::min(spell, last - step);
   const auto arrival = std::upper_bound(arrivals.begin(), arrivals.end(), time_of(step));
   while (steps > 1 && arrival != arrivals.end() && time_of(step + steps) >= *arrival) --steps;
-  if (steps > 1) {
+  if (steps > 1 && single_steps == 0) {
     const bool passed = pass(steps);
-    spell = passed ? std::min(2 * spell, kLongestSpell) : steps / 2;
+    spell = std::clamp<std::int64_t>(passed ? 2 * spell : spell / 2, 2, kLongestSpell);
     if (passed) return;
+    single_steps = kLongestSpell;
   }
   Parts parts;
   keep(advance(states, everyone, time_of(step), time_of(step + 1), &parts));
   ++step;
-  if (spell <= 1) spell = 2 * parts.close > parts.boxes.size() ? 1 : 2;
+  const bool is_crowded = 2 * parts.close > parts.boxes.size();
+  single_steps = is_crowded ? kLongestSpell : std::max<std::int64_t>(0, single_steps - 1);
 }
 
 /// Goes on by so many steps: who comes close to nobody by himself, the others step by step. Each

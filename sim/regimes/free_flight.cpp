@@ -1,5 +1,9 @@
 #include "sim/regimes/free_flight.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "sim/contact_forces.hpp"
 
 namespace ghtrack {
@@ -174,8 +178,38 @@ void leave_supports(FlightState& state, const FlightRate& free, const RoundBody&
   }
 }
 
-void settle_on_supports(FlightState& state, const RoundBody& body,
+double longest_step_on_supports(const FlightState& state, const std::vector<Surface>& surfaces) {
+  constexpr double kTurn = 0.03;  // [rad]
+  double fastest = 0.0;           // [rad/s]
+  for (const int index : {state.support, state.second_support}) {
+    if (index < 0) continue;
+    const Contact contact = surface_at(surfaces, index).contact(state.position);
+    fastest = std::max(fastest, std::abs(contact.curvature) * state.velocity.norm());
+  }
+  return fastest > 0.0 ? kTurn / fastest : std::numeric_limits<double>::infinity();
+}
+
+void keep_energy(const FlightState& before, FlightState& after, const FlightRate& free_before,
+                 const FlightRate& free_after, const RoundBody& body) {
+  const double inertia = body.inertia * body.radius * body.radius;
+  const auto energy = [&](const FlightState& state) {
+    return 0.5 * (state.velocity.squaredNorm() + inertia * state.spin * state.spin);
+  };
+  const double work =
+      0.5 * ((free_before.acceleration + free_after.acceleration)
+                 .dot(after.position - before.position) +
+             inertia * (free_before.spin + free_after.spin) * (after.angle - before.angle));
+  const double most = std::max(0.0, energy(before) + work);
+  const double now = energy(after);
+  if (now <= most) return;
+  const double factor = std::sqrt(most / now);
+  after.velocity *= factor;
+  after.spin *= factor;
+}
+
+bool settle_on_supports(FlightState& state, const RoundBody& body,
                         const std::vector<Surface>& surfaces, double turning) {
+  bool changes = false;
   for (const int index : {state.support, state.second_support}) {
     if (index < 0) continue;
     const Surface& surface = surface_at(surfaces, index);
@@ -186,7 +220,9 @@ void settle_on_supports(FlightState& state, const RoundBody& body,
     if (contact.curvature == 0.0 && state.second_support < 0) continue;
     state.position += (body.radius - contact.distance) * contact.normal;
     keep_out(state, surfaces);
+    changes = true;
   }
+  return changes;
 }
 
 bool is_nearly_at_rest(const FlightState& state, const RoundBody& body) {

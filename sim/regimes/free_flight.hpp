@@ -66,13 +66,22 @@ void leave_supports(FlightState& state, const FlightRate& free, const RoundBody&
 
 /// Takes out what a step's error has left of motion into the supports, and of turning back after a
 /// rolling body has come to rest.
-void settle_on_supports(FlightState& state, const RoundBody& body,
+/// @returns whether anything was taken out of the motion
+bool settle_on_supports(FlightState& state, const RoundBody& body,
                         const std::vector<Surface>& surfaces, double turning);
 
 /// Whether a supported body hardly moves; `rest` then brings it to a stand if the forces let it.
 bool is_nearly_at_rest(const FlightState& state, const RoundBody& body);
 void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
           const std::vector<Surface>& surfaces);
+
+/// So long a step of a body that supports hold may be: on a curve it turns by little [s].
+double longest_step_on_supports(const FlightState& state, const std::vector<Surface>& surfaces);
+
+/// Takes back what a step's error has added to the kinetic energy: surfaces do no work. What other
+/// forces do is taken by their values at both ends.
+void keep_energy(const FlightState& before, FlightState& after, const FlightRate& free_before,
+                 const FlightRate& free_after, const RoundBody& body);
 
 /// Whether the equations of motion change between two states on the same supports: a rolling body
 /// comes to rest, or it passes the end of a face.
@@ -235,6 +244,7 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
     };
     const auto after = [&](double part) { return runge_kutta(state, time, part, rates_here); };
     double step = to - time;
+    if (state.support >= 0) step = std::min(step, longest_step_on_supports(state, surfaces));
     FlightState next = after(step);
     if (state.support >= 0 && changes_on_supports(state, next, body, surfaces) &&
         ++changes < kMostChanges) {
@@ -248,9 +258,13 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
     }
     const Approach approach = first_approach(state, next, step, body, surfaces);
     if (approach.surface < 0) {
+      const FlightState before = state;
+      const double began = time;
       state = next;
       time = step == to - time ? to : time + step;
-      if (state.support >= 0) settle_on_supports(state, body, surfaces, turning);
+      if (state.support >= 0 && settle_on_supports(state, body, surfaces, turning)) {
+        keep_energy(before, state, rates(before, began), rates(state, time), body);
+      }
       if (state.support >= 0 && is_nearly_at_rest(state, body)) {
         rest(state, rates(state, time), body, surfaces);
       }
