@@ -64,12 +64,14 @@ enum class EventKind {
   kContact,   // it was struck, by another object or by a surface
   kCoupling,  // it was coupled to another
   kBurst,     // it burst
+  kOverrun,   // it ran past the place where it should have stopped
 };
 
-constexpr std::array<std::pair<std::string_view, EventKind>, 3> enum_names(EventKind) {
+constexpr std::array<std::pair<std::string_view, EventKind>, 4> enum_names(EventKind) {
   return {{{"contact", EventKind::kContact},
            {"coupling", EventKind::kCoupling},
-           {"burst", EventKind::kBurst}}};
+           {"burst", EventKind::kBurst},
+           {"overrun", EventKind::kOverrun}}};
 }
 
 /// Something that has happened to an object.

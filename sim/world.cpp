@@ -164,8 +164,7 @@ bool World::Scenery::pass(std::int64_t steps) {
     if (any_may_meet && is_there(moved[i], i, time_of(step))) add_parts(moved[i], i, parts);
     for (std::int64_t k = step; k < step + steps; ++k) {
       const bool yields = movers[i].flight(moved[i]) != nullptr;
-      movers[i].advance(moved[i], environment, time_of(k), time_of(k + 1),
-                        record.events ? &log : nullptr);
+      movers[i].advance(moved[i], environment, time_of(k), time_of(k + 1), &log);
       sweep(moved[i], i, first, yields, parts);
     }
     if (!log.empty()) logs.emplace_back(i, std::exchange(log, {}));
@@ -231,11 +230,10 @@ World::Scenery::Outcome World::Scenery::advance(States& moved,
   Outcome outcome;
   ImpactLog log;
   for (const std::size_t i : targets) {
-    ImpactLog* const told = record.events ? &log : nullptr;
     if (carriers[i]) {
-      moved[i] = alone(before, i, from, to, told);
+      moved[i] = alone(before, i, from, to, &log);
     } else {
-      movers[i].advance(moved[i], environment, from, to, told);
+      movers[i].advance(moved[i], environment, from, to, &log);
     }
     arrived = arrived || before[i].index() != moved[i].index();
     add_events(i, log, outcome.events);
@@ -255,6 +253,7 @@ World::Scenery::Outcome World::Scenery::advance(States& moved,
 void World::Scenery::add_events(std::size_t target, const ImpactLog& log,
                                 std::vector<WorldEvent>& told) const {
   for (const Impact& impact : log) {
+    if (!record.events && impact.kind != EventKind::kOverrun) continue;
     told.push_back({impact.time, impact.kind, first_objects[target] + impact.object,
                     impact.other < 0 ? -1 : first_objects[target] + impact.other,
                     impact.surface < 0 ? std::string() : environment.surface_name(impact.surface),

@@ -37,7 +37,8 @@ struct RecordConfig {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("events", &RecordConfig::events,
-            {.meaning = "events.csv: contacts with their impulses, couplings, bursts"});
+            {.meaning = "events.csv: contacts with their impulses, couplings with the momentum that "
+                        "passes until both run at one speed, bursts, stops that were run past"});
     v.field("columns", &RecordConfig::columns,
             {.meaning = "more columns of truth.csv: heading [rad], spin [rad/s], wind_x and wind_y "
                         "at the object [m/s]",
@@ -108,8 +109,8 @@ class World {
   /// The targets that have appeared inside something so far, and were moved out of it.
   const std::vector<Displacement>& displacements() const;
 
-  /// What has happened so far, in the order of time, if it is to be recorded: up to the last whole
-  /// step of the physics.
+  /// What has happened so far, in the order of time, up to the last whole step of the physics: all
+  /// of it if it is to be recorded, and in any case the stops that trains have run past.
   const std::vector<WorldEvent>& events() const;
 
  private:

@@ -14,6 +14,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kDriverTime = 2.0;      // in which a driver makes up a difference of speed [s]
 constexpr double kStationBraking = 0.9;  // part of the service brake that a driver plans with
+constexpr double kStopped = 0.5;         // who stands no farther beyond a stop has kept it [m]
 
 double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
 
@@ -33,6 +34,7 @@ TrainModel::TrainModel(const Train& train)
       track_(train.track, train.position, train.heading_deg * portable::kPi / 180.0) {
   if (!train.couplers) {
     masses_ = {train.mass};
+    groups_ = {{0, 1}};
     return;
   }
   const double leading = train.leading_mass.value_or(train.mass / train.cars);
@@ -40,9 +42,11 @@ TrainModel::TrainModel(const Train& train)
   for (std::size_t i = 1; i < masses_.size(); ++i) {
     masses_[i] = (train.mass - leading) / (train.cars - 1);
   }
+  groups_ = {{0, masses_.size()}};
   for (const CarsAhead& group : train.ahead) {
     const std::size_t first = masses_.size();
     masses_.insert(masses_.end(), static_cast<std::size_t>(group.cars), group.mass);
+    groups_.push_back({first, masses_.size()});
     meetings_.push_back({front_, masses_.size() - 1, group.couples});
     front_ = first;
   }
@@ -63,6 +67,7 @@ TrainModel::State TrainModel::start(const Environment&, double) const {
     state.place.push_back(train_.start - static_cast<double>(i) * train_.car_length);
     state.speed.push_back(train_.speed);
   }
+  state.drivers.resize(groups_.size());
   if (!train_.couplers) return state;
   for (const CarsAhead& group : train_.ahead) {
     for (int i = group.cars - 1; i >= 0; --i) {
@@ -74,46 +79,78 @@ TrainModel::State TrainModel::start(const Environment&, double) const {
   return state;
 }
 
-const DrivePhase* TrainModel::next_phase(const State& state) const {
-  const auto next = static_cast<std::size_t>(state.phase + 1);
-  return next < train_.drive.size() ? &train_.drive[next] : nullptr;
+const DrivePhase* TrainModel::next_phase(const State& state, std::size_t group) const {
+  const std::vector<DrivePhase>& drive = drive_of(group);
+  const auto next = static_cast<std::size_t>(state.drivers[group].phase + 1);
+  return next < drive.size() ? &drive[next] : nullptr;
 }
 
-bool TrainModel::reached_next_phase(const State& state) const {
-  const DrivePhase* next = next_phase(state);
-  return next != nullptr && next->at_position && state.place[0] >= *next->at_position;
+/// What the driver does; nothing before the first phase.
+const DriveCommand* TrainModel::command_of(const State& state, std::size_t group) const {
+  const int phase = state.drivers[group].phase;
+  return phase < 0 ? nullptr : &drive_of(group)[static_cast<std::size_t>(phase)].command;
+}
+
+bool TrainModel::reached_next_phase(const State& state, std::size_t group) const {
+  const DrivePhase* next = next_phase(state, group);
+  return next != nullptr && next->at_position &&
+         place_of_first(state, group) >= *next->at_position;
+}
+
+/// Whether the train is still under way beyond the place where it should have stopped.
+bool TrainModel::has_overrun(const State& state, std::size_t group) const {
+  const DriveCommand* const command = command_of(state, group);
+  if (command == nullptr) return false;
+  const auto* const stop = std::get_if<StationStop>(command);
+  return stop != nullptr && place_of_first(state, group) > stop->position + kStopped &&
+         state.speed[groups_[group].begin] > 0.0;
 }
 
 void TrainModel::decide(State& state, double time) const {
-  for (const DrivePhase* next = next_phase(state); next != nullptr; next = next_phase(state)) {
-    const bool due = next->at ? time >= *next->at : reached_next_phase(state);
+  for (std::size_t group = 0; group < groups_.size(); ++group) decide(state, time, group);
+}
+
+void TrainModel::decide(State& state, double time, std::size_t group) const {
+  Driver& driver = state.drivers[group];
+  for (const DrivePhase* next = next_phase(state, group); next != nullptr;
+       next = next_phase(state, group)) {
+    const bool due = next->at ? time >= *next->at : reached_next_phase(state, group);
     if (!due) break;
-    ++state.phase;
-    state.phase_began = time;
-    state.stopping = false;
+    ++driver.phase;
+    driver.phase_began = time;
+    driver.stopping = false;
   }
-  if (state.phase < 0 || state.stopping) return;
-  const DrivePhase& phase = train_.drive[static_cast<std::size_t>(state.phase)];
-  if (const auto* stop = std::get_if<StationStop>(&phase.command)) {
-    const double left = stop->position - state.place[0];
-    const double speed = state.speed[0];
-    state.stopping = speed * speed >= 2.0 * left * kStationBraking * train_.service_brake;
+  const DriveCommand* const command = command_of(state, group);
+  if (command == nullptr || driver.stopping) return;
+  if (const auto* stop = std::get_if<StationStop>(command)) {
+    const double left = stop->position - place_of_first(state, group);
+    const double speed = state.speed[groups_[group].begin];
+    driver.stopping = speed * speed >= 2.0 * left * kStationBraking * train_.service_brake;
   }
 }
 
 double TrainModel::next_kink(const State& state, double time) const {
   double kink = kNever;
-  const DrivePhase* next = next_phase(state);
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    kink = std::min(kink, next_kink(state, time, group));
+  }
+  return kink;
+}
+
+double TrainModel::next_kink(const State& state, double time, std::size_t group) const {
+  double kink = kNever;
+  const DrivePhase* next = next_phase(state, group);
   if (next != nullptr && next->at) kink = *next->at;
+  const double began = state.drivers[group].phase_began;
   double built_up = 0.0;
-  if (state.phase >= 0) {
-    const DriveCommand& command = train_.drive[static_cast<std::size_t>(state.phase)].command;
-    if (const auto* force = std::get_if<Force>(&command)) built_up = force->ramp;
-    if (const auto* brake = std::get_if<Brake>(&command)) {
+  if (const DriveCommand* const command = command_of(state, group)) {
+    if (const auto* force = std::get_if<Force>(command)) built_up = force->ramp;
+    if (const auto* brake = std::get_if<Brake>(command)) {
       built_up = build_up(*brake);
       if (train_.brake_pipe_speed && brake->brake != BrakeKind::kLocomotive) {
-        for (int car = 1; car < train_.cars; ++car) {
-          const double begins = state.phase_began + car * train_.car_length / *train_.brake_pipe_speed;
+        const int cars = group == 0 ? train_.cars : train_.ahead[group - 1].cars;
+        for (int car = 1; car < cars; ++car) {
+          const double begins = began + car * train_.car_length / *train_.brake_pipe_speed;
           for (const double bend : {begins, begins + built_up}) {
             if (bend > time) kink = std::min(kink, bend);
           }
@@ -121,7 +158,7 @@ double TrainModel::next_kink(const State& state, double time) const {
       }
     }
   }
-  if (state.phase_began + built_up > time) kink = std::min(kink, state.phase_began + built_up);
+  if (began + built_up > time) kink = std::min(kink, began + built_up);
   return kink;
 }
 
@@ -145,27 +182,29 @@ double TrainModel::traction_limit(double speed) const {
   return std::min({train_.max_force, by_power, grip});
 }
 
-TrainModel::Effort TrainModel::effort(const State& state, double time) const {
-  const double speed = state.speed[0];
+TrainModel::Effort TrainModel::effort(const State& state, double time, std::size_t group) const {
+  const double speed = state.speed[groups_[group].begin];
+  const Driver& driver = state.drivers[group];
   const auto since = [&](double rise) {
-    return rise > 0.0 ? std::clamp((time - state.phase_began) / rise, 0.0, 1.0) : 1.0;
+    return rise > 0.0 ? std::clamp((time - driver.phase_began) / rise, 0.0, 1.0) : 1.0;
   };
   const auto towards = [&](double wanted) {
     const double change = (wanted - speed) / kDriverTime;
     return Effort{.acceleration = std::clamp(change, -train_.service_brake, train_.service_brake)};
   };
-  const DriveCommand& command = train_.drive[static_cast<std::size_t>(state.phase)].command;
-  if (const auto* hold = std::get_if<Accelerate>(&command)) {
+  const DriveCommand* const command = command_of(state, group);
+  if (command == nullptr) return {};
+  if (const auto* hold = std::get_if<Accelerate>(command)) {
     if (hold->acceleration < 0.0 && speed <= 0.0) return {.braking = train_.service_brake};
     return {.acceleration = hold->acceleration};
   }
-  if (const auto* traction = std::get_if<Traction>(&command)) {
+  if (const auto* traction = std::get_if<Traction>(command)) {
     return {.force = traction->fraction * traction_limit(speed)};
   }
-  if (const auto* force = std::get_if<Force>(&command)) {
+  if (const auto* force = std::get_if<Force>(command)) {
     return {.force = force->force * since(force->ramp)};
   }
-  if (const auto* brake = std::get_if<Brake>(&command)) {
+  if (const auto* brake = std::get_if<Brake>(command)) {
     const double full =
         brake->brake == BrakeKind::kEmergency ? train_.emergency_brake : train_.service_brake;
     const bool alone = brake->brake == BrakeKind::kLocomotive;
@@ -173,10 +212,10 @@ TrainModel::Effort TrainModel::effort(const State& state, double time) const {
             .by_first_alone = alone,
             .piped = train_.brake_pipe_speed && !alone ? full : 0.0};
   }
-  if (const auto* target = std::get_if<TargetSpeed>(&command)) return towards(target->speed);
-  if (const auto* stop = std::get_if<StationStop>(&command)) {
-    const double left = stop->position - state.place[0];
-    if (!state.stopping) return {.acceleration = 0.0};
+  if (const auto* target = std::get_if<TargetSpeed>(command)) return towards(target->speed);
+  if (const auto* stop = std::get_if<StationStop>(command)) {
+    const double left = stop->position - place_of_first(state, group);
+    if (!driver.stopping) return {.acceleration = 0.0};
     if (left <= 0.01 || speed < 0.05) return {.braking = train_.service_brake};
     return {.acceleration = -std::min(0.5 * speed * speed / left, train_.emergency_brake)};
   }
@@ -208,9 +247,8 @@ double TrainModel::hindered(double active, double passive, double direction, dou
 }
 
 TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, double active,
-                                          double passive) const {
+                                          double passive, double inertia) const {
   const double acceleration = *wanted.acceleration;
-  const double inertia = train_.mass * train_.rotating_mass;
   const double direction = speed != 0.0 ? sign(speed) : sign(acceleration);
   const double needed = inertia * acceleration + direction * passive - active;
   if (needed * direction < 0.0) {
@@ -222,12 +260,12 @@ TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, do
 
 /// The most that the speed limits leave to the driver [m/s²]. On the way to a limit v₁ he keeps to
 /// the parabola v² = v₁² + 2 b s on which he brakes with b.
-double TrainModel::highest_acceleration(double place, double speed) const {
+double TrainModel::highest_acceleration(double place, double speed, std::size_t cars) const {
   const double braking = kStationBraking * train_.service_brake;
   double highest = kNever;
   for (const SpeedLimit& limit : train_.speed_limits) {
     const double left = limit.from - place;
-    if (place > limit.to + (train_.cars - 1) * train_.car_length) continue;
+    if (place > limit.to + static_cast<double>(cars - 1) * train_.car_length) continue;
     const bool is_ahead = left > 0.0;
     const double allowed =
         is_ahead ? std::sqrt(limit.speed * limit.speed + 2.0 * braking * left) : limit.speed;
@@ -239,33 +277,65 @@ double TrainModel::highest_acceleration(double place, double speed) const {
 
 /// The deceleration by the brakes of one unit. Those of a rigid train are the mean of its cars'.
 double TrainModel::braking_of(const Effort& now, const State& state, double time,
-                              std::size_t unit) const {
+                              std::size_t group, std::size_t unit) const {
   const bool is_rigid = masses_.size() == 1;
-  if (!is_rigid && unit >= static_cast<std::size_t>(train_.cars)) return 0.0;  // ahead: no brakes
+  const std::size_t first = groups_[group].begin;
   if (now.by_first_alone) {
-    if (!is_rigid) return unit == 0 ? now.braking : 0.0;
+    if (!is_rigid) return unit == first ? now.braking : 0.0;
     return now.braking * train_.leading_mass.value_or(train_.mass / train_.cars) / train_.mass;
   }
   if (now.piped == 0.0) return now.braking;
-  const auto& brake =
-      std::get<Brake>(train_.drive[static_cast<std::size_t>(state.phase)].command);
-  const double rise = build_up(brake);
+  const double rise = build_up(std::get<Brake>(*command_of(state, group)));
   const auto of_car = [&](std::size_t car) {
     const double delay = static_cast<double>(car) * train_.car_length / *train_.brake_pipe_speed;
-    const double since = time - state.phase_began - delay;
+    const double since = time - state.drivers[group].phase_began - delay;
     if (since < 0.0) return 0.0;
     return now.piped * (rise > 0.0 ? std::min(since / rise, 1.0) : 1.0);
   };
-  if (!is_rigid) return of_car(unit);
+  if (!is_rigid) return of_car(unit - first);
   double sum = 0.0;
   for (int car = 0; car < train_.cars; ++car) sum += of_car(static_cast<std::size_t>(car));
   return sum / train_.cars;
 }
 
+/// What the driver of a group demands, as far as speed limits and its engine let him.
+/// @param active, passive  the forces that drive and hinder each unit, without his [N]
+TrainModel::Effort TrainModel::possible_effort(const State& state, double time, std::size_t group,
+                                               const std::vector<double>& active,
+                                               const std::vector<double>& passive) const {
+  const auto [begin, end] = groups_[group];
+  const double speed = state.speed[begin];
+  double mass = 0.0;
+  double active_sum = 0.0;
+  double passive_sum = 0.0;
+  for (std::size_t unit = begin; unit < end; ++unit) {
+    mass += masses_[unit];
+    active_sum += active[unit];
+    passive_sum += passive[unit];
+  }
+  if (group == 0) mass = train_.mass;  // without what rounding adds
+  const double inertia = mass * train_.rotating_mass;
+  Effort now = effort(state, time, group);
+  const bool has_driver = group == 0 || !drive_of(group).empty();
+  if (!train_.speed_limits.empty() && has_driver && speed > 0.0) {
+    const auto cars = static_cast<std::size_t>(group == 0 ? train_.cars
+                                                          : train_.ahead[group - 1].cars);
+    const double highest = highest_acceleration(state.place[begin], speed, cars);
+    const double meant = now.acceleration.value_or(
+        (now.force + active_sum - passive_sum) / inertia - now.braking);
+    if (meant > highest) now = {.acceleration = highest};
+  }
+  if (!now.acceleration) return now;
+  if (*now.acceleration == 0.0 && speed == 0.0) {
+    return {.braking = train_.service_brake};  // a standing train holds its brakes
+  }
+  return effort_for(now, speed, active_sum, passive_sum, inertia);
+}
+
 std::vector<double> TrainModel::accelerations(const State& state, double time,
                                               const std::vector<double>& directions) const {
   const std::size_t units = masses_.size();
-  if (state.phase < 0 && meetings_.empty() && !train_.buffer_stop) {
+  if (state.drivers[0].phase < 0 && meetings_.empty() && !train_.buffer_stop) {
     return std::vector<double>(units, 0.0);
   }
   std::vector<double> active(units, 0.0);
@@ -283,38 +353,29 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
   }
 
   const std::vector<double> slope = active;
-  Effort now = state.phase < 0 ? Effort{} : effort(state, time);
-  if (!train_.speed_limits.empty() && state.speed[0] > 0.0) {
-    const double highest = highest_acceleration(state.place[0], state.speed[0]);
-    const double active_sum = std::accumulate(active.begin(), active.end(), 0.0);
-    const double passive_sum = std::accumulate(passive.begin(), passive.end(), 0.0);
-    const double meant = now.acceleration.value_or(
-        (now.force + active_sum - passive_sum) / (train_.mass * train_.rotating_mass) -
-        now.braking);
-    if (meant > highest) now = {.acceleration = highest};
+  std::vector<Effort> efforts;
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    efforts.push_back(possible_effort(state, time, group, active, passive));
   }
-  if (now.acceleration) {
-    const double active_sum = std::accumulate(active.begin(), active.end(), 0.0);
-    const double passive_sum = std::accumulate(passive.begin(), passive.end(), 0.0);
-    if (*now.acceleration == 0.0 && state.speed[0] == 0.0) {
-      now = {.braking = train_.service_brake};  // a standing train holds its brakes
-    } else {
-      now = effort_for(now, state.speed[0], active_sum, passive_sum);
-    }
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    active[groups_[group].begin] += efforts[group].force;
   }
-  const double most_braking = braking_limit(train_, state.speed[0]);
-  active[0] += now.force;
   if (train_.couplers) add_coupler_forces(state, active);
   add_forces_ahead(state, active);
 
   std::vector<double> result(units);
-  for (std::size_t i = 0; i < units; ++i) {
-    const double inertia = masses_[i] * train_.rotating_mass;
-    // Brakes that hold give way to the driver, not to the slope.
-    const bool stands = directions[i] == 0.0;
-    if (train_.holding_brake && stands && active[i] * (active[i] - slope[i]) <= 0.0) continue;
-    const double braking = std::min(braking_of(now, state, time, i), most_braking);
-    result[i] = hindered(active[i], passive[i] + braking * inertia, directions[i], inertia);
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    const auto [begin, end] = groups_[group];
+    const double most_braking = braking_limit(train_, state.speed[begin]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double inertia = masses_[i] * train_.rotating_mass;
+      // Brakes that hold give way to the driver, not to the slope.
+      const bool stands = directions[i] == 0.0;
+      if (train_.holding_brake && stands && active[i] * (active[i] - slope[i]) <= 0.0) continue;
+      const double braking =
+          std::min(braking_of(efforts[group], state, time, group, i), most_braking);
+      result[i] = hindered(active[i], passive[i] + braking * inertia, directions[i], inertia);
+    }
   }
   return result;
 }
@@ -328,12 +389,9 @@ std::vector<double> TrainModel::directions_of(const State& state) {
 void TrainModel::add_coupler_forces(const State& state, std::vector<double>& forces) const {
   const Couplers& couplers = *train_.couplers;
   for (std::size_t i = 0; i + 1 < forces.size(); ++i) {
-    const bool begins_group =
-        i + 1 >= static_cast<std::size_t>(train_.cars) &&
-        (i + 1 == static_cast<std::size_t>(train_.cars) ||
-         std::any_of(meetings_.begin(), meetings_.end(),
-                     [i](const Meeting& meeting) { return meeting.ahead == i; }));
-    if (begins_group) continue;
+    const bool ends_group = std::any_of(groups_.begin(), groups_.end(),
+                                        [i](const Group& group) { return group.end == i + 1; });
+    if (ends_group) continue;
     const double stretch = state.place[i] - state.place[i + 1] - train_.car_length;
     const double beyond = std::abs(stretch) - couplers.slack;
     if (beyond <= 0.0) continue;
@@ -382,12 +440,9 @@ double TrainModel::pressed(const State& state) const {
 /// A group of cars and what is coupled to it on one side.
 TrainModel::Consist TrainModel::consist_of(const State& state, std::size_t group,
                                            bool ahead) const {
-  const auto end_of = [&](std::size_t g) {
-    return g == 0 ? static_cast<std::size_t>(train_.cars) : meetings_[g - 1].ahead + 1;
-  };
   Consist consist;
   for (;;) {
-    for (std::size_t unit = group == 0 ? 0 : end_of(group - 1); unit < end_of(group); ++unit) {
+    for (std::size_t unit = groups_[group].begin; unit < groups_[group].end; ++unit) {
       consist.inertia += masses_[unit] * train_.rotating_mass;
       consist.momentum += masses_[unit] * train_.rotating_mass * state.speed[unit];
     }
@@ -454,6 +509,10 @@ void TrainModel::advance(State& state, const Environment&, double from, double t
   double time = from;
   while (time < to) {
     join(state, time, log);
+    std::vector<bool> had_overrun;
+    for (std::size_t group = 0; group < groups_.size(); ++group) {
+      had_overrun.push_back(has_overrun(state, group));
+    }
     decide(state, time);
     const double end = std::min({to, next_kink(state, time), time + longest_step(state)});
     State next = moved(state, time, end - time);
@@ -466,7 +525,10 @@ void TrainModel::advance(State& state, const Environment&, double from, double t
         if ((gap(state, meetings_[i]) > 0.0) != (gap(s, meetings_[i]) > 0.0)) return true;
       }
       if (train_.buffer_stop && (pressed(state) > 0.0) != (pressed(s) > 0.0)) return true;
-      return reached_next_phase(s) || (s.speed[0] * state.speed[0] < 0.0 && masses_.size() == 1);
+      for (std::size_t group = 0; group < groups_.size(); ++group) {
+        if (reached_next_phase(s, group)) return true;
+      }
+      return s.speed[0] * state.speed[0] < 0.0 && masses_.size() == 1;
     };
     if (event(next)) {
       double before = 0.0;
@@ -488,6 +550,13 @@ void TrainModel::advance(State& state, const Environment&, double from, double t
     }
     state = next;
     time = step == end - time ? end : time + step;
+    for (std::size_t group = 0; group < groups_.size() && log != nullptr; ++group) {
+      if (had_overrun[group] || !has_overrun(state, group)) continue;
+      const std::size_t first = groups_[group].begin;
+      const bool is_seen = group == 0 || train_.track_every_car;
+      log->push_back({time, -1, track_.at(state.place[first]).position, Vec2::Zero(),
+                      EventKind::kOverrun, is_seen ? static_cast<int>(first) : 0});
+    }
   }
 }
 

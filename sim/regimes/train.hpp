@@ -137,16 +137,17 @@ struct SpeedLimit {
   }
 };
 
-/// Cars that stand or roll on the same track ahead of the train, without an engine or brakes.
+/// Cars that stand or roll on the same track ahead of the train, or another train.
 struct CarsAhead {
   static constexpr std::string_view about =
       "cars on the same track ahead of the train, without an engine or brakes: what comes up pushes "
-      "them";
+      "them; with `drive` another train, with the engine and the brakes of this one";
   double start = 0.0;
   int cars = 1;
   double mass = 20e3;
   double speed = 0.0;
   bool couples = true;
+  std::vector<DrivePhase> drive = {};
 
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -164,6 +165,9 @@ struct CarsAhead {
             {.unit = "m/s", .meaning = "at the start", .minimum = -50.0, .maximum = 50.0});
     v.field("couples", &CarsAhead::couples,
             {.meaning = "couple to what comes up behind them; otherwise they only buffer"});
+    v.field("drive", &CarsAhead::drive,
+            {.meaning = "what their driver does, in this order; places are those of their foremost car",
+             .max_items = 1000});
   }
 };
 
@@ -392,14 +396,18 @@ struct Train {
 /// The longitudinal motion of one train, and of what it meets on its track.
 class TrainModel {
  public:
+  struct Driver {
+    int phase = -1;            // index of the drive phase; −1: before the first
+    double phase_began = 0.0;  // [s]
+    bool stopping = false;     // has begun to brake for a station
+  };
+
   /// Along the track, per car that moves by itself: one if the couplers are rigid; then the cars of
   /// the groups ahead, the foremost of each first.
   struct State {
     std::vector<double> place;  // arc length of the centres, first car first [m]
     std::vector<double> speed;  // [m/s]
-    int phase = -1;             // index of the drive phase; −1: before the first
-    double phase_began = 0.0;   // [s]
-    bool stopping = false;      // the driver has begun to brake for a station
+    std::vector<Driver> drivers;  // of the train, and of each group ahead
     std::vector<bool> joined;   // of each place where groups of cars meet: they are coupled
   };
 
@@ -420,6 +428,11 @@ class TrainModel {
   ContactProperties contact() const;
 
  private:
+  /// Units that were coupled from the start, the foremost first: the train, then what is ahead.
+  struct Group {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
   /// Where the last car of a group ahead meets what comes up behind it.
   struct Meeting {
     std::size_t behind;  // units
@@ -438,17 +451,32 @@ class TrainModel {
     double piped = 0.0;  // of the braking, that runs through the pipe: what it will be [m/s²]
   };
 
-  const DrivePhase* next_phase(const State& state) const;
-  bool reached_next_phase(const State& state) const;
+  const std::vector<DrivePhase>& drive_of(std::size_t group) const {
+    return group == 0 ? train_.drive : train_.ahead[group - 1].drive;
+  }
+  double place_of_first(const State& state, std::size_t group) const {
+    return state.place[groups_[group].begin];
+  }
+  const DrivePhase* next_phase(const State& state, std::size_t group) const;
+  const DriveCommand* command_of(const State& state, std::size_t group) const;
+  bool reached_next_phase(const State& state, std::size_t group) const;
+  bool has_overrun(const State& state, std::size_t group) const;
   void decide(State& state, double time) const;
+  void decide(State& state, double time, std::size_t group) const;
   double next_kink(const State& state, double time) const;
+  double next_kink(const State& state, double time, std::size_t group) const;
   double longest_step(const State& state) const;
   double build_up(const Brake& brake) const;
   double traction_limit(double speed) const;
-  Effort effort(const State& state, double time) const;
-  Effort effort_for(const Effort& wanted, double speed, double active, double passive) const;
-  double highest_acceleration(double place, double speed) const;
-  double braking_of(const Effort& now, const State& state, double time, std::size_t unit) const;
+  Effort effort(const State& state, double time, std::size_t group) const;
+  Effort effort_for(const Effort& wanted, double speed, double active, double passive,
+                    double inertia) const;
+  Effort possible_effort(const State& state, double time, std::size_t group,
+                         const std::vector<double>& active,
+                         const std::vector<double>& passive) const;
+  double highest_acceleration(double place, double speed, std::size_t cars) const;
+  double braking_of(const Effort& now, const State& state, double time, std::size_t group,
+                    std::size_t unit) const;
   double slope_force(double place, double mass) const;
   double curve_drag(double place, double mass) const;
   void add_coupler_forces(const State& state, std::vector<double>& forces) const;
@@ -466,8 +494,9 @@ class TrainModel {
 
   Train train_;
   RailLine track_;
-  std::vector<Meeting> meetings_;
-  std::size_t front_ = 0;       // the foremost unit
+  std::vector<Group> groups_;
+  std::vector<Meeting> meetings_;  // of each group with the next
+  std::size_t front_ = 0;          // the foremost unit
   std::vector<double> masses_;  // of what moves by itself: the train, or each sprung car [kg]
   double longest_step_ = std::numeric_limits<double>::infinity();  // that the couplers allow [s]
 };

@@ -90,6 +90,54 @@ TEST(Shunting, EndsAtABufferStop) {
   EXPECT_NEAR(state_at(world, 10.0 + portable::kPi * 0.1 + 0.01).velocity.x(), -2.0, 1e-5);
 }
 
+// Derived: two trains that are driven towards each other on one track for 20 s close the gap between
+// them by ½ (a₁ + a₂) t², the rest at the speed that they have, and couple: momentum.
+TEST(Shunting, MeetsAnotherDrivenTrain) {
+  Train train = free_train(2, 100e3, 0.0, {phase_at(0.0, Force{20e3})});
+  train.couplers->damping = 2e5;
+  CarsAhead other{210.0, 2, 25e3, 0.0, true, {phase_at(0.0, Force{-20e3}), phase_at(20.0, Coast{})}};
+  train.ahead = {other};
+  train.drive.push_back(phase_at(20.0, Coast{}));
+  WorldConfig config = world_of({target_of(train)});
+  config.record.events = true;
+  World world(config, 1);
+  const TruthSnapshot before = world.sample(19.0);
+  EXPECT_NEAR(before.objects[0].velocity.x(), 0.2 * 19.0, 0.01);
+  EXPECT_NEAR(before.objects[3].velocity.x(), -0.4 * 19.0, 0.02);
+  const double first = 0.2 * 20.0;
+  const double second = -0.4 * 20.0;
+  const double coasting = (200.0 - 0.5 * 0.6 * 400.0) / (first - second);
+  const TruthSnapshot after = world.sample(60.0);
+  for (const TruthState& car : after.objects) {
+    EXPECT_NEAR(car.velocity.x(), (100e3 * first + 50e3 * second) / 150e3, 1e-2);
+  }
+  ASSERT_EQ(world.events().size(), 1u);
+  EXPECT_EQ(world.events()[0].kind, EventKind::kCoupling);
+  EXPECT_NEAR(world.events()[0].time, 20.0 + coasting, 0.05);
+}
+
+// Property: a stop that cannot be kept is said, once, whether or not events are recorded; one that
+// can be kept is not.
+TEST(Shunting, SaysThatAStopWasRunPast) {
+  for (const double begins : {0.0, 1900.0}) {
+    Train train = free_train(3, 100e3, 30.0, {phase_at_position(begins, StationStop{2000.0})});
+    train.couplers.reset();
+    train.service_brake = 0.5;
+    train.emergency_brake = 1.0;
+    World world(world_of({target_of(train)}), 1);
+    EXPECT_EQ(state_at(world, 200.0).velocity.x(), 0.0);
+    if (begins == 0.0) {
+      EXPECT_TRUE(world.events().empty());
+      EXPECT_NEAR(state_at(world, 200.0).position.x(), 2000.0, 0.5);
+      continue;
+    }
+    ASSERT_EQ(world.events().size(), 1u);
+    EXPECT_EQ(world.events()[0].kind, EventKind::kOverrun);
+    EXPECT_GT(world.events()[0].position.x(), 2000.0);
+    EXPECT_LT(world.events()[0].position.x(), 2001.0);
+  }
+}
+
 // Derived: of a rigid train of n cars those brake that the pipe has reached, after 0, L/c, 2L/c, …:
 // v(t) = v − (b/n) Σ B(t − i L/c), with B(s) = s²/2r while the brake builds up and s − r/2 then; with the locomotive's brake alone b m₁/m.
 TEST(Shunting, BrakesCarByCar) {
@@ -113,6 +161,32 @@ TEST(Shunting, BrakesCarByCar) {
   train.drive = {phase_at(1.0, Brake{BrakeKind::kLocomotive})};
   World alone(world_of({target_of(train)}), 1);
   EXPECT_NEAR(state_at(alone, 11.0).velocity.x(), 20.0 - 0.5 * 0.6 * 9.8, 1e-9);
+}
+
+// Derived: with brakes stronger than wheels can bear, these slide at a(v) = μ(v) f g of Curtius &
+// Kniffler's μ, and the way to a stand is ∫ v dv / a(v), in closed form.
+TEST(Shunting, StopsAtTheLimitOfAdhesion) {
+  for (const double adhesion : {0.15, 0.4}) {
+    for (const double speed : {8.0, 30.0}) {
+      Train train = free_train(4, 100e3, speed, {phase_at(0.0, Brake{BrakeKind::kEmergency})});
+      train.couplers.reset();
+      train.track_every_car = false;
+      train.emergency_brake = 5.0;
+      train.emergency_brake_build_up = 0.0;
+      train.adhesion = adhesion;
+      World world(world_of({target_of(train)}), 1);
+      // v dv / a = (44 + 3.6 v) v dv / (c (p + q v))
+      const double c = adhesion * kStandardGravity;
+      const double q = 0.161 * 3.6;
+      const double p = 7.5 + 0.161 * 44.0;
+      const double linear = (44.0 - 3.6 * p / q) / q;
+      const double way = (1.8 / q * speed * speed + linear * speed -
+                          linear * p / q * portable::log(1.0 + q * speed / p)) / c;
+      const TruthState stopped = state_at(world, 200.0);
+      EXPECT_EQ(stopped.velocity.x(), 0.0);
+      EXPECT_NEAR(stopped.position.x(), way, 1e-5 * way) << adhesion << ' ' << speed;
+    }
+  }
 }
 
 /// The run-in of sprung cars that brake one after the other, written out: Euler steps of 5 µs.

@@ -65,6 +65,16 @@ void warn_of_displacements(const TruthSource& truth) {
   }
 }
 
+void warn_of_overruns(const TruthSource& truth) {
+  for (const WorldEvent& event : truth.events()) {
+    if (event.kind != EventKind::kOverrun) continue;
+    tell(
+        "ghtrack: warning: '{}' ran past its stop at {:.6g} s: it began to brake too late, or its "
+        "brakes are too weak",
+        truth.objects().at(static_cast<std::size_t>(event.object)).name, event.time);
+  }
+}
+
 /// Draws the tracks of the run beside its truth and detections.
 void write_plots(const fs::path& folder, const RunMetricsOptions& scoring,
                  const std::string& title) {
@@ -150,6 +160,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   results.commit();
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);
   if (!manners.quiet) warn_of_displacements(truth);
+  if (!manners.quiet) warn_of_overruns(truth);
   print(to_table(report, terminal_width()));
 }
 
