@@ -740,7 +740,9 @@ class Encounter {
   };
 
   /// @param only  a pair whose motion alone is wanted
-  Instant within(const Trial& trial, double time, const Pair* only = nullptr) const {
+  /// @param log   of impacts on surfaces on the way
+  Instant within(const Trial& trial, double time, const Pair* only = nullptr,
+                 ImpactLog* log = nullptr) const {
     const Instant& start = trial.start;
     if (time == start.time) return start;
     const auto is_wanted = [only](int body) {
@@ -756,8 +758,7 @@ class Encounter {
     for (int i = 0; i < static_cast<int>(yielding_.size()); ++i) {
       if (!is_wanted(i)) continue;
       if (!trial.heap.holds(i)) {
-        yielding_[at(i)].mover->advance(there.round[at(i)], environment_, start.time, time,
-                                        nullptr);
+        yielding_[at(i)].mover->advance(there.round[at(i)], environment_, start.time, time, log);
         continue;
       }
       const FlightState& before = *flight(start, i);
@@ -845,14 +846,20 @@ class Encounter {
       trial.end.passing = passers_at(end);
       move_heap(start, trial.end, heap, false);
     }
-    const Instant last = within(trial, end);
+    ImpactLog impacts;
+    const Instant last = within(trial, end, nullptr, &impacts);
     std::erase_if(pairs, [&](const Pair& pair) { return stay_apart(pair, start, last); });
     if (pairs.empty()) return std::nullopt;
     const int samples = samples_of(pairs, start, end);
+    std::vector<double> times{end};
+    for (int k = 1; k < samples; ++k) times.push_back(start.time + (end - start.time) * k / samples);
+    // In between, paths are to be smooth.
+    for (const Impact& impact : impacts) times.push_back(impact.time);
+    std::sort(times.begin(), times.end());
     Instant before = start;
-    for (int k = 1; k <= samples; ++k) {
-      const double time = k == samples ? end : start.time + (end - start.time) * k / samples;
-      Instant after = k == samples ? last : within(trial, time);
+    for (const double time : times) {
+      if (time <= before.time) continue;
+      Instant after = time == end ? last : within(trial, time);
       std::optional<double> first;
       for (const Pair& pair : pairs) {
         const std::optional<double> hit = hit_between(trial, pair, before, after);
