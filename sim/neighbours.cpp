@@ -106,7 +106,7 @@ class Neighbourhood::Tree {
       const b2Vec2 centre = box.GetCenter();
       if (body.proxy == b2_nullNode) {
         body.proxy = tree_.CreateProxy(box, reinterpret_cast<void*>(number));
-      } else if (!tree_.MoveProxy(body.proxy, box, centre - body.centre)) {
+      } else if (!tree_.MoveProxy(body.proxy, box, foreseen(centre - body.centre))) {
         body.centre = centre;
         continue;
       }
@@ -114,6 +114,12 @@ class Neighbourhood::Tree {
       body.moved = true;
       moved_.push_back(number);
     }
+  }
+
+  /// The way that the tree makes room for, four times: what goes far comes again anyway.
+  static b2Vec2 foreseen(const b2Vec2& way) {
+    constexpr float kFar = 0.5F;  // [m]
+    return way.LengthSquared() < kFar * kFar ? way : b2Vec2_zero;
   }
 
   void find_new_pairs() {
@@ -139,6 +145,11 @@ Neighbourhood::Neighbourhood() : tree_(std::make_unique<Tree>()) {}
 Neighbourhood::~Neighbourhood() = default;
 Neighbourhood::Neighbourhood(Neighbourhood&&) noexcept = default;
 Neighbourhood& Neighbourhood::operator=(Neighbourhood&&) noexcept = default;
+
+std::vector<std::pair<std::size_t, std::size_t>> Neighbourhood::pairs(
+    const std::vector<SweptBox>& boxes) {
+  return tree_->pairs(boxes);
+}
 
 std::vector<Cluster> Neighbourhood::clusters(const std::vector<SweptBox>& boxes) {
   const auto pairs = tree_->pairs(boxes);

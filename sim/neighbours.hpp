@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "sim/truth.hpp"
@@ -33,6 +34,9 @@ class Neighbourhood {
   ~Neighbourhood();
   Neighbourhood(Neighbourhood&&) noexcept;
   Neighbourhood& operator=(Neighbourhood&&) noexcept;
+
+  /// Pairs of boxes that overlap and may meet, as indices, ascending.
+  std::vector<std::pair<std::size_t, std::size_t>> pairs(const std::vector<SweptBox>& boxes);
 
   /// The clusters among these boxes. Bodies far from every other are in none. Two bodies that are
   /// near the same unyielding one only are in different clusters, since they have no influence on

@@ -21,6 +21,7 @@ namespace {
 constexpr double kMargin = 0.02;   // around swept boxes [m]
 constexpr double kInstant = 1e-9;  // two instants closer than this are one [s]
 constexpr double kSpace = 0.1;     // beside what sweeps for several steps [m]
+constexpr double kRounding = 1e-9;  // of the distance between boxes [m]
 constexpr std::int64_t kLongestSpell = 16;
 
 /// Half of a part's size in any direction.
@@ -94,13 +95,13 @@ struct World::Scenery {
   double time_of(std::int64_t index) const { return static_cast<double>(index) / rate; }
   void go_on(std::int64_t last);
   bool pass(std::int64_t steps);
+  bool comes_close(const Parts& parts, const std::vector<Vec2>& places, std::size_t steps) const;
   void keep(Outcome&& outcome);
   Outcome advance(States& moved, const std::vector<std::size_t>& targets, double from, double to,
                   Parts* swept = nullptr) const;
   void add_events(std::size_t target, const ImpactLog& log, std::vector<WorldEvent>& events) const;
   void add_parts(const Mover::State& state, std::size_t target, Parts& parts) const;
-  void sweep(const Mover::State& state, std::size_t target, std::size_t first, bool yields,
-             Parts& parts) const;
+  void sweep(const Mover::State& state, std::size_t target, std::size_t first, Parts& parts) const;
   Parts parts_of(const States& before, const States& after,
                  const std::vector<std::size_t>& targets, double from) const;
   static std::vector<std::size_t> targets_of(const Cluster& cluster, const Parts& parts);
@@ -151,30 +152,70 @@ void World::Scenery::go_on(std::int64_t last) {
   single_steps = is_crowded ? kLongestSpell : std::max<std::int64_t>(0, single_steps - 1);
 }
 
+/// Whether in one of these steps two come as close as in a step of all.
+/// @param places  of each part, before the first step and after each
+bool World::Scenery::comes_close(const Parts& parts, const std::vector<Vec2>& places,
+                                 std::size_t steps) const {
+  for (const auto& [a, b] : neighbourhood.pairs(parts.boxes)) {
+    const Vec2 reach = margins[static_cast<std::size_t>(parts.boxes[a].owner)] +
+                       margins[static_cast<std::size_t>(parts.boxes[b].owner)];
+    const Vec2* const one = &places[a * (steps + 1)];
+    const Vec2* const other = &places[b * (steps + 1)];
+    for (std::size_t k = 0; k < steps; ++k) {
+      const Vec2 below = one[k].cwiseMin(one[k + 1]) - other[k].cwiseMax(other[k + 1]);
+      const Vec2 above = other[k].cwiseMin(other[k + 1]) - one[k].cwiseMax(one[k + 1]);
+      const Vec2 apart = below.cwiseMax(above) - reach;
+      if (apart.maxCoeff() <= kRounding) return true;
+    }
+  }
+  return false;
+}
+
 /// Goes on by so many steps: who comes close to nobody by himself, the others step by step. Each
 /// goes the way that single steps of all would have led him.
 /// @returns false, with all as it was, where too many are close or one is thrown among others
 bool World::Scenery::pass(std::int64_t steps) {
   States moved = states;
   Parts parts;
+  std::vector<Vec2> places;  // of each part, before the first step and after each
   std::vector<std::pair<std::size_t, ImpactLog>> logs;
   ImpactLog log;
   for (const std::size_t i : everyone) {
     const std::size_t first = parts.boxes.size();
     if (any_may_meet && is_there(moved[i], i, time_of(step))) add_parts(moved[i], i, parts);
-    for (std::int64_t k = step; k < step + steps; ++k) {
-      const bool yields = movers[i].flight(moved[i]) != nullptr;
-      movers[i].advance(moved[i], environment, time_of(k), time_of(k + 1), &log);
-      sweep(moved[i], i, first, yields, parts);
+    const std::size_t count = parts.boxes.size() - first;
+    const std::size_t stride = static_cast<std::size_t>(steps) + 1;
+    places.resize(parts.boxes.size() * stride);
+    const auto note_places = [&](std::size_t k) {
+      for (std::size_t part = 0; part < count; ++part) {
+        places[(first + part) * stride + k] =
+            movers[i].body(moved[i], static_cast<int>(part)).position;
+      }
+    };
+    note_places(0);
+    bool yields = false;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      yields = yields || movers[i].flight(moved[i]) != nullptr;
+      movers[i].advance(moved[i], environment, time_of(step + k), time_of(step + k + 1), &log);
+      note_places(static_cast<std::size_t>(k) + 1);
+    }
+    for (std::size_t box = first; box < parts.boxes.size(); ++box) {
+      Vec2 low = places[box * stride];
+      Vec2 high = low;
+      for (std::size_t k = 1; k < stride; ++k) {
+        low = low.cwiseMin(places[box * stride + k]);
+        high = high.cwiseMax(places[box * stride + k]);
+      }
+      const Vec2 margin = margins[i] + Vec2::Constant(kSpace);
+      parts.boxes[box].low = low - margin;
+      parts.boxes[box].high = high + margin;
+      parts.boxes[box].yields = yields;
+      parts.any_yields = parts.any_yields || yields;
     }
     if (!log.empty()) logs.emplace_back(i, std::exchange(log, {}));
   }
-  for (SweptBox& box : parts.boxes) {
-    box.low -= Vec2::Constant(kSpace);
-    box.high += Vec2::Constant(kSpace);
-  }
   std::vector<std::size_t> close;
-  if (parts.any_yields) {
+  if (parts.any_yields && comes_close(parts, places, static_cast<std::size_t>(steps))) {
     for (const Cluster& cluster : neighbourhood.clusters(parts.boxes)) {
       const std::vector<std::size_t> targets = targets_of(cluster, parts);
       close.insert(close.end(), targets.begin(), targets.end());
@@ -277,14 +318,11 @@ void World::Scenery::add_parts(const Mover::State& state, std::size_t target, Pa
 }
 
 /// Widens the boxes of a target, from the first of them on, to where its parts have come.
-/// @param yields  whether they give way on the way
 void World::Scenery::sweep(const Mover::State& state, std::size_t target, std::size_t first,
-                           bool yields, Parts& parts) const {
-  parts.any_yields = parts.any_yields || yields;
+                           Parts& parts) const {
   for (std::size_t i = first; i < parts.boxes.size(); ++i) {
     const Vec2 position = movers[target].body(state, parts.part[i]).position;
     SweptBox& box = parts.boxes[i];
-    box.yields = box.yields || yields;
     box.low = box.low.cwiseMin(position - margins[target]);
     box.high = box.high.cwiseMax(position + margins[target]);
   }
@@ -297,7 +335,7 @@ Parts World::Scenery::parts_of(const States& before, const States& after,
     if (!is_there(before[i], i, from)) continue;
     const std::size_t first = parts.boxes.size();
     add_parts(before[i], i, parts);
-    sweep(after[i], i, first, false, parts);
+    sweep(after[i], i, first, parts);
   }
   return parts;
 }

@@ -261,6 +261,7 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
     const Contact contact = struck.contact(state.position);
     state.position += std::max(0.0, body.radius - contact.distance) * contact.normal;
     const double approach = -state.velocity.dot(contact.normal);
+    double departure = -approach;  // of a hop that is too low to be followed
     if (approach > 0.0) {
       const double restitution = struck.restitution.value_or(body.restitution);
       const double friction = struck.friction.value_or(body.friction);
@@ -274,16 +275,15 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
       state.velocity += change;
       state.spin += grip / (body.inertia * body.radius);
       impulse += body.mass * change;
-
-      const double departure = restitution * approach;
-      const double pressing =
-          -free.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
-      const double rest_speed =
-          std::max(kLeastBounce, std::sqrt(2.0 * kRestHeight * std::max(0.0, pressing)));
-      if (departure < rest_speed && pressing > 0.0) {
-        add_support(state, static_cast<int>(surface), surfaces);
-        keep_out(state, surfaces);
-      }
+      departure = restitution * approach;
+    }
+    const double pressing =
+        -free.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
+    const double rest_speed =
+        std::max(kLeastBounce, std::sqrt(2.0 * kRestHeight * std::max(0.0, pressing)));
+    if (departure < rest_speed && pressing > 0.0) {
+      add_support(state, static_cast<int>(surface), surfaces);
+      keep_out(state, surfaces);
     }
     // A support that is struck from the side answers in turn.
     const auto runs_into = [&](int index) {
