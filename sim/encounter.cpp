@@ -16,6 +16,7 @@ constexpr double kParting = 1e-9;    // slower than this two bodies neither part
 constexpr double kClinging = 1e-4;   // what is pressed together does not part at less [m/s]
 constexpr double kOverlap = 1e-10;   // a smaller one is a rounding error [m]
 constexpr double kSlipDecay = 0.02;  // time in which the last slip of a rolling body dies [s]
+constexpr double kCreep = 1e-3;      // slower slip in a heap is sticking that has not settled [m/s]
 constexpr double kAtRest = 1e-7;     // slower than this, and held, a body rests [m/s]
 constexpr double kLongestTogether = 1.0 / 240.0;  // step of bodies that are pressed together [s]
 constexpr double kShortestStep = 1e-6;            // where hits follow each other without end [s]
@@ -510,7 +511,7 @@ class Encounter {
       touch.normal_offset =
           there.curvature * sliding * sliding - there.normal.dot(there.acceleration);
       touch.slip_offset = slip / kSlipDecay - tangent.dot(there.acceleration);
-      touch.slip = noticeable(slip);
+      touch.slip = std::abs(slip) > kCreep ? slip : 0.0;
     }
     solve_contacts(pushed, heap.touches, kForceSweeps);
     std::vector<FlightRate> result;

@@ -183,15 +183,24 @@ class ProblemFinder {
   /// good.
   void find_overlaps() {
     std::vector<Beginning> beginnings = beginnings_of(targets_);
-    std::sort(beginnings.begin(), beginnings.end(), [](const Beginning& a, const Beginning& b) {
-      return std::pair(a.position.x() - a.radius, a.target) <
-             std::pair(b.position.x() - b.radius, b.target);
+    if (beginnings.empty()) return;
+    // A sweep along the axis on which they are farther apart.
+    Vec2 low = beginnings.front().position;
+    Vec2 high = low;
+    for (const Beginning& one : beginnings) {
+      low = low.cwiseMin(one.position);
+      high = high.cwiseMax(one.position);
+    }
+    const int axis = high.y() - low.y() > high.x() - low.x() ? 1 : 0;
+    const auto begin_of = [axis](const Beginning& one) { return one.position[axis] - one.radius; };
+    std::sort(beginnings.begin(), beginnings.end(), [&](const Beginning& a, const Beginning& b) {
+      return std::pair(begin_of(a), a.target) < std::pair(begin_of(b), b.target);
     });
     for (std::size_t i = 0; i < beginnings.size(); ++i) {
       const Beginning& a = beginnings[i];
       for (std::size_t j = i + 1; j < beginnings.size(); ++j) {
         const Beginning& b = beginnings[j];
-        if (b.position.x() - b.radius > a.position.x() + a.radius) break;
+        if (begin_of(b) > a.position[axis] + a.radius) break;
         if (a.appears != b.appears) continue;
         if ((a.position - b.position).norm() >= 0.9 * (a.radius + b.radius)) continue;
         const auto [first, second] = std::minmax({a.target, b.target});

@@ -16,6 +16,40 @@ Balloon make_preset(std::string_view type, double radius, double envelope_mass) 
   return balloon;
 }
 
+/// What the forces of flight depend on beside the motion.
+struct Coefficients {
+  double drag_per_speed;  // acceleration by drag / squared speed through the air [1/m]
+  double sinking;         // part of gravity that is left
+  double carried;         // part of the air's own acceleration that the balloon takes part in
+};
+
+Coefficients coefficients_of(const auto& form, const Balloon& balloon, double mass) {
+  const double carried = balloon.fluid_acceleration
+                             ? (1.0 + balloon.added_mass) * form.displaced / form.inertia
+                             : 0.0;
+  return {form.drag_per_speed, (mass - form.displaced) / form.inertia, carried};
+}
+
+FlightRate rate_with(const Coefficients& balloon, const FlightState& state,
+                     const Environment& environment, const SmoothInstant& now) {
+  const Wind& wind = environment.wind();
+  const Vec2 air = wind.at(state.position, now.time) - state.velocity;
+  FlightRate rate;
+  rate.acceleration =
+      balloon.drag_per_speed * air.norm() * air + balloon.sinking * environment.gravity();
+  if (balloon.carried != 0.0) {
+    rate.acceleration += balloon.carried * wind.material_derivative(state.position, now.time,
+                                                                    now.earliest, now.latest);
+  }
+  return rate;
+}
+
+double stiffness_with(double drag_per_speed, const FlightState& state,
+                      const Environment& environment, const SmoothInstant& now) {
+  const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
+  return 2.0 * drag_per_speed * air.norm();
+}
+
 }  // namespace
 
 std::span<const Balloon> Balloon::presets() {
@@ -43,7 +77,31 @@ BalloonModel::State BalloonModel::start(const Environment&, double) const {
 
 void BalloonModel::advance(State& state, const Environment& environment, double from, double to,
                            ImpactLog* log) const {
-  fly_in_wind(*this, state, environment, from, to, log);
+  const bool is_steady = !balloon_.expands && environment.air().atmosphere == Atmosphere::kUniform;
+  if (!is_steady) {
+    fly_in_wind(*this, state, environment, from, to, log);
+  } else {
+    // Nothing but the motion changes on the way: divisions are for once.
+    struct Steady {
+      using State = FlightState;
+      const BalloonModel& model;
+      Coefficients coefficients;
+
+      RoundBody round(const Environment& there) const { return model.round(there); }
+      FlightState* flight(State& flying) const { return &flying; }
+      FlightRate rate(const FlightState& flying, const Environment& there,
+                      const SmoothInstant& now) const {
+        return rate_with(coefficients, flying, there, now);
+      }
+      double stiffness(const FlightState& flying, const Environment& there,
+                       const SmoothInstant& now) const {
+        return stiffness_with(coefficients.drag_per_speed, flying, there, now);
+      }
+    };
+    const Steady steady{*this, coefficients_of(form(state, environment), balloon_,
+                                               state.is_burst ? balloon_.envelope_mass : mass_)};
+    fly_in_wind(steady, state, environment, from, to, log);
+  }
   if (!balloon_.burst_radius || state.is_burst) return;
   const double ratio = *balloon_.burst_radius / balloon_.radius;
   if (growth(state, environment) < ratio * ratio * ratio) return;
@@ -82,22 +140,12 @@ FlightRate BalloonModel::rate(const FlightState& state, const Environment& envir
                               const SmoothInstant& now) const {
   const Form form = this->form(state, environment);
   const double mass = state.is_burst ? balloon_.envelope_mass : mass_;
-  const Vec2 air = environment.wind().at(state.position, now.time) - state.velocity;
-  FlightRate rate;
-  rate.acceleration = form.drag_per_speed * air.norm() * air +
-                      (mass - form.displaced) / form.inertia * environment.gravity();
-  if (balloon_.fluid_acceleration) {
-    rate.acceleration +=
-        (1.0 + balloon_.added_mass) * form.displaced / form.inertia *
-        environment.wind().material_derivative(state.position, now.time, now.earliest, now.latest);
-  }
-  return rate;
+  return rate_with(coefficients_of(form, balloon_, mass), state, environment, now);
 }
 
 double BalloonModel::stiffness(const FlightState& state, const Environment& environment,
                                const SmoothInstant& now) const {
-  const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
-  return 2.0 * form(state, environment).drag_per_speed * air.norm();
+  return stiffness_with(form(state, environment).drag_per_speed, state, environment, now);
 }
 
 PlanarMotion BalloonModel::kinematics(const State& state, const Environment& environment,
