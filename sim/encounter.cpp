@@ -23,6 +23,7 @@ constexpr double kShortestStep = 1e-6;            // where hits follow each othe
 constexpr int kMostSamples = 2000;                // of a step, in the search for the first touch
 constexpr int kForceSweeps = 200;     // of solve_contacts(), where the last answer is a guess
 constexpr int kImpulseSweeps = 2000;  // and where there is none
+constexpr int kMostReturns = 8;       // of two to each other in a step; then they stay together
 constexpr int kMostHits = 100;        // of each body in a step; then nothing bounces any more
 constexpr int kMostSteps = 200;       // from hit to hit, the same; then hits are passed over
 
@@ -296,12 +297,23 @@ class Encounter {
   void record(const Instant& now, const Pair& pair, const Vec2& impulse) {
     const bool at_surface = pair.kind == Partner::kSurface;
     if (!at_surface) meeting_.touched = true;
+    if (!at_surface) ++returns_of(pair);
     const int partner = at_surface ? -1
                         : pair.kind == Partner::kRound
                             ? pair.other
                             : static_cast<int>(yielding_.size()) + pair.other;
     meeting_.hits.push_back({now.time, pair.one, partner, at_surface ? pair.other : -1,
                              flight(now, pair.one)->position, impulse});
+  }
+
+  /// How often a pair has met in this step, of round bodies or with what passes.
+  int& returns_of(const Pair& wanted) {
+    for (auto& [pair, count] : returns_) {
+      if (pair.one == wanted.one && pair.kind == wanted.kind && pair.other == wanted.other) {
+        return count;
+      }
+    }
+    return returns_.emplace_back(wanted, 0).second;
   }
 
   void strike(Instant& now, const Pair& pair) {
@@ -435,8 +447,9 @@ class Encounter {
     return heap;
   }
 
-  /// Those that forces press together, with all that they are in touch with.
-  Heap find_heap(const Instant& now) const {
+  /// Those that forces press together or that come back to each other again and again, with all that
+  /// they are in touch with.
+  Heap find_heap(const Instant& now) {
     Heap heap = touching(now, kClinging);
     if (heap.bodies.empty()) return heap;
     rates(now, heap);
@@ -456,8 +469,10 @@ class Encounter {
     }
     std::vector<bool> pressed(yielding_.size(), false);
     for (std::size_t i = 0; i < heap.pairs.size(); ++i) {
-      if (heap.pairs[i].kind == Partner::kSurface || heap.touches[i].push <= 0.0) continue;
-      pressed[at(group[at(heap.pairs[i].one)])] = true;
+      const Pair& pair = heap.pairs[i];
+      if (pair.kind == Partner::kSurface) continue;
+      if (heap.touches[i].push <= 0.0 && returns_of(pair) < kMostReturns) continue;
+      pressed[at(group[at(pair.one)])] = true;
     }
     Heap kept;
     kept.place.assign(yielding_.size(), -1);
@@ -950,6 +965,7 @@ class Encounter {
   std::vector<Pair> pairs_;            // of round bodies with each other and with what passes
   std::vector<Pair> surface_pairs_;    // and with the surroundings
   Meeting meeting_;
+  std::vector<std::pair<Pair, int>> returns_;  // how often pairs have met so far
   int hits_ = 0;
   int steps_ = 0;
   int short_steps_ = 0;   // of no length to speak of, so far
