@@ -23,8 +23,7 @@ double dry_adhesion(double speed) { return 7.5 / (3.6 * std::abs(speed) + 44.0) 
 
 /// The deceleration beyond which wheels slide: brakes act on all axles [m/s²].
 double braking_limit(const Train& train, double speed) {
-  const double braked = std::max(train.mass, train.adhesive_mass) / train.mass;
-  return dry_adhesion(speed) * train.adhesion * braked * kStandardGravity / train.rotating_mass;
+  return dry_adhesion(speed) * train.adhesion * kStandardGravity / train.rotating_mass;
 }
 
 }  // namespace

