@@ -169,6 +169,7 @@ struct ScoreOptions {
   std::string format = "auto";
   std::optional<double> gospa_c, gospa_p, gospa_alpha, gospa_switching, tgospa_gamma, ospa_p,
       match_distance;
+  std::optional<double> latency;  // [s]: scored as known at the wall clock
   std::string benchmark = "auto";
   std::string per_step, matches;  // CSV files; empty: none
   bool json = false;

@@ -505,6 +505,9 @@ void add_score(CLI::App& app, ScoreOptions& options) {
   command.add_option("--ospa-p", options.ospa_p, "OSPA: exponent of its own, inf is allowed");
   add_number(command, "--match-distance", options.match_distance, kPositive,
              "largest distance of a match [m]");
+  add_number(command, "--latency", options.latency, kPositive,
+             "tracks are known so much later than they say [s]: score at each instant of the truth "
+             "what was known then, carried on at its velocity (columns vx and vy)");
   command
       .add_option("--benchmark", options.benchmark,
                   "whose rules say which boxes are scored: MOT15, MOT16, MOT17, MOT20, none, or "

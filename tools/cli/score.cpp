@@ -115,6 +115,7 @@ class Extras {
 
 ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, Extras& extras,
                             const Manners& manners) {
+  if (options.latency) throw UsageError("score: --latency is for points, not for boxes");
   const std::vector<MotRow> truth = read_mot_file(pair.truth, MotKind::kTruth);
   const std::vector<MotRow> tracks = read_mot_file(pair.tracks, MotKind::kResult);
   const bool are_labels = looks_like_kitti_file(pair.truth);
@@ -170,9 +171,13 @@ ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair
   }
   tell_what_was_read(truth.understood(), truth.left_out(), truth.remarks(), manners);
   tell_what_was_read(tracks.understood(), tracks.left_out(), tracks.remarks(), manners);
+  AtClock sources{.truth = {[&] { return truth.next(); }, truth.period()},
+                  .tracks = {[&] { return tracks.next(); }, tracks.period()}};
+  if (options.latency) {
+    sources = at_clock(std::move(sources.truth), std::move(sources.tracks), *options.latency);
+  }
   const ScoreResult result = score_points(
-      {[&] { return truth.next(); }, truth.period()},
-      {[&] { return tracks.next(); }, tracks.period()}, settings(options, pair, false),
+      sources.truth, sources.tracks, settings(options, pair, false),
       [&](const Scorer::Step& step, const ScoredSet& objects, const ScoredSet& estimates) {
         stop_if_interrupted();
         extras.add(pair.name, step, objects, estimates);

@@ -16,6 +16,7 @@ struct PointRow {
   double time = 0.0;
   std::int64_t id = 0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   std::int64_t line = 0;
 };
 
@@ -35,6 +36,8 @@ struct PointReader::State {
       : table(path, options),
         identity(identity_column(table, kind)),
         fixes(table, options, known_origin),
+        velocity_x(kind == PointKind::kTracks ? table.column("vx") : std::nullopt),
+        velocity_y(kind == PointKind::kTracks ? table.column("vy") : std::nullopt),
         status(kind == PointKind::kTracks ? table.columns().find(Role::kStatus) : std::nullopt),
         has_names(!parse_whole(table.first_cell(identity))),
         rows([this](PointRow& row) { return read(row); },
@@ -49,6 +52,10 @@ struct PointReader::State {
       const auto fix = fixes.read(table);
       if (!id || !fix || !fix->position) continue;
       row = {.time = fix->time, .id = *id, .position = *fix->position, .line = table.line()};
+      if (velocity_x && velocity_y) {
+        row.velocity = {table.number(*velocity_x).value_or(0.0),
+                        table.number(*velocity_y).value_or(0.0)};
+      }
       return true;
     }
     return false;
@@ -104,6 +111,7 @@ struct PointReader::State {
   Table table;
   std::size_t identity;
   FixColumns fixes;
+  std::optional<std::size_t> velocity_x, velocity_y;
   std::optional<std::size_t> status;
   bool has_names;  // identities are words
   Words names;
@@ -138,7 +146,7 @@ std::vector<IdentifiedPoint> PointReader::next() {
   state_->check_identities(rows);
   std::vector<IdentifiedPoint> points;
   points.reserve(rows.size());
-  for (const PointRow& row : rows) points.push_back({row.time, row.id, row.position});
+  for (const PointRow& row : rows) points.push_back({row.time, row.id, row.position, row.velocity});
   return points;
 }
 

@@ -18,6 +18,7 @@ struct IdentifiedPoint {
   double time = 0.0;  // [s]
   std::int64_t id = 0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m]
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [m/s]; of tracks with columns vx and vy
 };
 
 enum class PointKind {

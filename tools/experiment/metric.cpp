@@ -48,6 +48,9 @@ double rmse_position(const SubjectReport& s) {
 double predicted_rmse(const SubjectReport& s) {
   return root_mean_square_of(s, &ObjectReport::predicted_rmse);
 }
+double rmse_at_clock(const SubjectReport& s) {
+  return root_mean_square_of(s, &ObjectReport::rmse_at_clock);
+}
 double rmse_velocity(const SubjectReport& s) {
   return root_mean_square_of(s, &ObjectReport::rmse_velocity);
 }
@@ -127,6 +130,10 @@ double false_tracks(const SubjectReport& s) { return of_scene(s, s.run.total.fal
 constexpr std::array<MetricInfo, kMetrics> kInfo = {{
     {"rmse", "RMSE of position", "m", "root mean square of the position's error",
      Better::kLess, Average::kRootMeanSquare, rmse_position, predicted_rmse},
+    {"rmse_at_clock", "RMSE at the wall clock", "m",
+     "root mean square of the position's error as it was known at the time of each scan, predicted "
+     "from what had arrived by then; where sensors have a latency",
+     Better::kLess, Average::kRootMeanSquare, rmse_at_clock},
     {"rmse_velocity", "RMSE of velocity", "m/s", "root mean square of the velocity's error",
      Better::kLess, Average::kRootMeanSquare, rmse_velocity, predicted_velocity},
     {"peak_error", "Peak error", "m", "largest error of the position", Better::kLess,

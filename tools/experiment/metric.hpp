@@ -14,6 +14,7 @@ namespace ghtrack {
 /// that follows an object.
 enum class Metric {
   kRmsePosition,  // √ mean |e|² [m]
+  kRmseAtClock,   // of what was known at the wall clock, where sensors have a latency [m]
   kRmseVelocity,  // [m/s]
   kPeakError,     // max |e| [m]
   kSettlingTime,  // from an object's first scan until its error first stays small, or to its last [s]

@@ -78,7 +78,7 @@ class ContenderScores final : public RunObserver {
     }
   }
 
-  void write_scores(std::vector<double>& scores) const {
+  void write_scores(std::vector<double>& scores) {
     const TrialLayout layout = trial_.layout();
     const RunReport report = metrics_.report();
     for (std::size_t i = 0; i < trial_.subjects().size(); ++i) {
@@ -150,7 +150,7 @@ std::vector<double> Trial::scores(int run, TruthSource& truth, RunObservers obse
   for (ContenderScores& scores : all) observers.push_back(&scores);
   listen(run, truth, contenders_, std::move(observers), frame_times);
   std::vector<double> scores(layout().size(), kNothing);
-  for (const ContenderScores& contender : all) contender.write_scores(scores);
+  for (ContenderScores& contender : all) contender.write_scores(scores);
   return scores;
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kSmall = 0.1;  // of a sigma: so far beside the prediction no limit is near
 constexpr int kSettled = 5;     // updates after which filters with a limit use it
-constexpr std::size_t kShadows = 16;
 
 using Vector6 = ExpectedError::Vector6;
 using Matrix6 = ExpectedError::Matrix6;
 using Gain = ExpectedError::Gain;
+constexpr std::size_t kShadows = ExpectedError::kShadows;
 
 Vector6 state_of(const Filter& filter) {
   const Kinematics<2>& state = estimate(filter);
@@ -249,9 +249,11 @@ ExpectedError::Value ExpectedError::value(const TruthState& truth) const {
 ExpectedError::Value ExpectedError::value_of_shadows(const TruthState& truth) const {
   constexpr double kShare = 1.0 / kShadows;
   Value value{.innovation = innovation_};
-  for (const Filter& shadow : shadows_) {
-    const Vec2 position = estimate(shadow).position - truth.position;
-    const Vec2 velocity = estimate(shadow).velocity - truth.velocity;
+  auto& squares = value.shadows.emplace();
+  for (std::size_t i = 0; i < kShadows; ++i) {
+    const Vec2 position = estimate(shadows_[i]).position - truth.position;
+    const Vec2 velocity = estimate(shadows_[i]).velocity - truth.velocity;
+    squares[i] = {position.squaredNorm(), velocity.squaredNorm()};
     value.position += kShare * position;
     value.velocity += kShare * velocity;
     value.position_variance += kShare * position.squaredNorm();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -37,6 +38,7 @@ class ExpectedError {
   using Vector6 = Eigen::Matrix<double, 6, 1>;  // position, velocity, acceleration on x and y
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Gain = Eigen::Matrix<double, 6, 2>;     // K: what a residual adds to each
+  static constexpr std::size_t kShadows = 16;
 
   /// @param fresh  waits for its first measurement, which is this one
   /// @param key    of the noise that shadows are shown
@@ -67,6 +69,14 @@ class ExpectedError {
     /// much less than one independent error it tells. 1 where each error forgets the one before.
     /// Absent of filters that shadows stand for.
     std::optional<double> memory = {};
+
+    /// Squared errors of the shadows, where they tell: how far their mean may be from what is to be
+    /// expected follows from how they differ.
+    struct Shadow {
+      double position = 0.0;  // [m²]
+      double velocity = 0.0;  // [m²/s²]
+    };
+    std::optional<std::array<Shadow, kShadows>> shadows = {};
 
     double position_square() const { return position.squaredNorm() + position_variance; }
     double velocity_square() const { return velocity.squaredNorm() + velocity_variance; }

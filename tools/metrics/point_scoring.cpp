@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "tools/data/ordered_rows.hpp"
@@ -11,7 +13,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kSameRate = 1.5;  // up to this ratio of the periods
+constexpr double kGap = 1.5;  // periods of a file between its instants, from which on some are missing
 
 /// One file, with its present instant and the one after it.
 class Side {
@@ -56,25 +58,89 @@ double tolerance_of(const PointSource& truth, const PointSource& tracks) {
   return shorter > 0.0 ? 0.5 * shorter : 1e-9;
 }
 
-/// Whether an instant that only the quicker side has is to be scored: it lies in a gap of the slower
-/// side, and so far from what was scored last that it stands for an instant of the slower side.
-bool fills_gap(double time, const Side& slower, double last_scored, double tolerance) {
-  const double period = slower.period();
-  const double gap = slower.time() - slower.last_time();
-  return gap > kSameRate * period && time >= last_scored + period - tolerance &&
-         slower.time() - time >= period - tolerance;
+/// Whether an instant that only one side has is to be scored: it lies in a gap of the other side, and
+/// so far from what was scored last that it stands for an instant of the other side.
+bool fills_gap(double time, const Side& other, double last_scored, double tolerance) {
+  const double period = other.period();
+  const double gap = other.time() - other.last_time();
+  return gap > kGap * period && time >= last_scored + period - tolerance &&
+         other.time() - time >= period - tolerance;
 }
 
+/// Goes through truth and tracks together: whichever is asked first, both get the same instants.
+class ClockedTracks {
+ public:
+  ClockedTracks(PointSource truth, PointSource tracks, double latency)
+      : truth_(std::move(truth)), tracks_(std::move(tracks)), latency_(latency),
+        ahead_(tracks_.next()) {}
+
+  std::vector<IdentifiedPoint> next_truth() {
+    if (objects_.empty()) read();
+    return pop(objects_);
+  }
+
+  /// Instants of which nothing is known are left out.
+  std::vector<IdentifiedPoint> next_tracks() {
+    while (true) {
+      if (known_.empty()) read();
+      if (known_.empty()) return {};
+      std::vector<IdentifiedPoint> points = pop(known_);
+      if (!points.empty()) return points;
+    }
+  }
+
+ private:
+  using Points = std::vector<IdentifiedPoint>;
+
+  static Points pop(std::deque<Points>& queue) {
+    if (queue.empty()) return {};
+    Points first = std::move(queue.front());
+    queue.pop_front();
+    return first;
+  }
+
+  void read() {
+    Points objects = truth_.next();
+    if (objects.empty()) return;
+    known_.push_back(known_at(objects.front().time));
+    objects_.push_back(std::move(objects));
+  }
+
+  Points known_at(double time) {
+    constexpr double kSame = 1e-9;  // s that the sum of a time and the latency may be off
+    while (!ahead_.empty() && ahead_.front().time + latency_ <= time + kSame) {
+      latest_ = std::move(ahead_);
+      ahead_ = tracks_.next();
+    }
+    const double age = latest_.empty() ? kNever : time - latest_.front().time;
+    if (age > latency_ + kGap * tracks_.period) return {};
+    Points points = latest_;
+    for (IdentifiedPoint& point : points) {
+      point.time = time;
+      point.position += age * point.velocity;
+    }
+    return points;
+  }
+
+  PointSource truth_, tracks_;
+  double latency_;
+  Points latest_, ahead_;                // of the tracks: known at present, and next
+  std::deque<Points> objects_, known_;  // that are yet to be asked for
+};
+
 }  // namespace
+
+AtClock at_clock(PointSource truth, PointSource tracks, double latency) {
+  const double period = truth.period;
+  const auto clocked = std::make_shared<ClockedTracks>(std::move(truth), std::move(tracks), latency);
+  return {.truth = {[clocked] { return clocked->next_truth(); }, period},
+          .tracks = {[clocked] { return clocked->next_tracks(); }, period}};
+}
 
 ScoreResult score_points(
     const PointSource& truth_source, const PointSource& track_source, const ScoreOptions& options,
     const std::function<void(const Scorer::Step&, const ScoredSet&, const ScoredSet&)>& on_step) {
   const double tolerance = tolerance_of(truth_source, track_source);
-  const bool truth_is_slower = truth_source.period > kSameRate * track_source.period &&
-                               track_source.period > 0.0;
-  const bool tracks_are_slower = track_source.period > kSameRate * truth_source.period &&
-                                 truth_source.period > 0.0;
   Side truth(truth_source), tracks(track_source);
   Scorer scorer(options, false);
   InstantCounts instants;
@@ -99,9 +165,8 @@ ScoreResult score_points(
       continue;
     }
     const double time = truth_first ? truth.time() : tracks.time();
-    const bool is_between = truth_first ? tracks_are_slower : truth_is_slower;
     const Side& other = truth_first ? tracks : truth;
-    const bool scored = !is_between || fills_gap(time, other, last_scored, tolerance);
+    const bool scored = fills_gap(time, other, last_scored, tolerance);
     const ScoredSet set = truth_first ? truth.take() : tracks.take();
     if (!scored) {
       ++(truth_first ? instants.truth_unscored : instants.tracks_unscored);

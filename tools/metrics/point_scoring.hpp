@@ -13,12 +13,21 @@ struct PointSource {
   double period = 0.0;                                 // typical time between instants [s]
 };
 
+/// Truth and tracks whose instants are those of the truth.
+struct AtClock {
+  PointSource truth, tracks;
+};
+/// Tracks as they were known at the wall clock: what is said of an instant is known so much later,
+/// and is carried on at its velocity until more is known.
+/// @param latency  [s]
+AtClock at_clock(PointSource truth, PointSource tracks, double latency);
+
 /// Scores points. An instant of the truth and one of the tracks are the same if each is the nearest
 /// of the other and they are less than half a period of the quicker file apart.
 ///
-/// Where both files have about the same rate, an instant without a counterpart is scored alone: its
-/// objects are missed, or its tracks false. Where one is slower, the instants of the quicker one in
-/// between are not scored; in a gap of the slower one, some of them at its rate are.
+/// An instant without a counterpart between two instants of the other file that follow one another at
+/// its rate is not scored. Those in a gap of the other file are, at that file's rate: objects are
+/// missed, or tracks false.
 /// @param on_step  gets each instant with what was scored; may be empty
 ScoreResult score_points(
     const PointSource& truth, const PointSource& tracks, const ScoreOptions& options,

@@ -27,6 +27,22 @@ double effective_count(std::int64_t values, double memory) {
   return std::max(1.0, n * n / memory);
 }
 
+/// The 95 % interval of a root mean square that shadows tell: Student's, on the scale of the
+/// logarithm. @param sums  of squares over so many scans, by shadow
+std::optional<Interval> rms_interval(
+    const std::array<ExpectedError::Value::Shadow, ExpectedError::kShadows>& sums,
+    std::int64_t scans, double ExpectedError::Value::Shadow::*part) {
+  constexpr auto kCount = static_cast<double>(ExpectedError::kShadows);
+  double centre = 0.0, scatter = 0.0;
+  for (const auto& sum : sums) centre += sum.*part / kCount;
+  for (const auto& sum : sums) scatter += (sum.*part - centre) * (sum.*part - centre);
+  if (!(centre > 0.0)) return std::nullopt;
+  const double error = std::sqrt(scatter / (kCount - 1.0) / kCount) / centre;
+  const double factor = std::exp(0.5 * student_quantile(0.975, ExpectedError::kShadows - 1) * error);
+  const double root = std::sqrt(centre / static_cast<double>(scans));
+  return Interval{root / factor, root * factor};
+}
+
 std::optional<double> mean(double sum, std::int64_t count) {
   if (count == 0) return std::nullopt;
   return sum / static_cast<double>(count);
@@ -73,7 +89,7 @@ void RunMetrics::add_tracks(const StepRecord& record) {
   if (record.contender != contender_) return;
   if (record.fate == ScanFate::kReplayed) following_.lose_count();
   if (!record.is_in_order()) return;
-  score_sets(record);
+  gather_sets(record);
   following_.update(record);
 
   const std::vector<std::optional<std::size_t>> chosen = choose_tracks(record);
@@ -93,6 +109,22 @@ void RunMetrics::add_tracks(const StepRecord& record) {
     } else {
       lose(tally);
     }
+  }
+}
+
+void RunMetrics::add_known(const TruthSnapshot& truth, const TrackSnapshot& tracks,
+                           std::size_t contender) {
+  if (contender != contender_) return;
+  for (const TruthState& object : truth.objects) {
+    ObjectTally& tally = tallies_.at(static_cast<std::size_t>(object.id));
+    if (!tally.followed) continue;
+    const auto track =
+        std::find_if(tracks.tracks.begin(), tracks.tracks.end(), [&](const TrackEstimate& one) {
+          return one.id == tally.track && counts_as_output(one);
+        });
+    if (track == tracks.tracks.end()) continue;
+    tally.doubtful_known.push_back((track->position - object.position).squaredNorm());
+    if (tally.ignored == 0) count_doubtful(tally);
   }
 }
 
@@ -133,21 +165,28 @@ void RunMetrics::lose(ObjectTally& tally) const {
   if (tally.followed) ++tally.track_losses;
   tally.followed = false;
   tally.doubtful.clear();
+  tally.doubtful_known.clear();
   if (tally.calm_scans < kCalmScans) tally.calm_scans = 0;
 }
 
-void RunMetrics::score_sets(const StepRecord& record) {
-  std::vector<std::int64_t> truth_ids, track_ids;
-  std::vector<Vec2> truth, tracks;
+/// Of several scans at one instant the last one speaks for it, as in files.
+void RunMetrics::gather_sets(const StepRecord& record) {
+  if (instant_ && instant_->time != record.truth.time) score_sets();
+  instant_.emplace().time = record.truth.time;
   for (const TruthState& object : record.truth.objects) {
-    truth_ids.push_back(object.id);
-    truth.push_back(object.position);
+    instant_->truth_ids.push_back(object.id);
+    instant_->truth.push_back(object.position);
   }
   for (const TrackEstimate& track : record.tracks.tracks) {
     if (!counts_as_output(track)) continue;
-    track_ids.push_back(track.id);
-    tracks.push_back(track.position);
+    instant_->track_ids.push_back(track.id);
+    instant_->tracks.push_back(track.position);
   }
+}
+
+void RunMetrics::score_sets() {
+  if (!instant_) return;
+  const auto [time, truth_ids, track_ids, truth, tracks] = *std::exchange(instant_, std::nullopt);
   if (truth.empty() && tracks.empty()) return;
 
   ++sums_.scans;
@@ -158,6 +197,9 @@ void RunMetrics::score_sets(const StepRecord& record) {
   sums_.gospa_false += sets.false_tracks;
   sums_.ospa += sets.ospa;
   sums_.switches += switches_.add(truth_ids, track_ids, sets.matches);
+  for (const PointMatch& match : sets.matches) {
+    squared_distance_.add(match.distance * match.distance);
+  }
   sums_.missed_targets += sets.missed_count;
   sums_.false_tracks += sets.false_count;
   mot_.add_points(truth_ids, truth, track_ids, tracks, options_.matching());
@@ -224,6 +266,13 @@ void RunMetrics::count(ObjectTally& tally, const ScanScore& score) const {
   if (score.expected) {
     tally.predicted_square += score.expected->position_square();
     tally.predicted_velocity_square += score.expected->velocity_square();
+    tally.shadows_tell = tally.shadows_tell || score.expected->shadows;
+    for (std::size_t i = 0; i < ExpectedError::kShadows; ++i) {
+      const auto& shadows = score.expected->shadows;
+      auto& [position, velocity] = tally.predicted_by_shadows[i];
+      position += shadows ? (*shadows)[i].position : score.expected->position_square();
+      velocity += shadows ? (*shadows)[i].velocity : score.expected->velocity_square();
+    }
     if (score.lag) tally.predicted_lag -= score.expected->position.dot(score.direction);
     ++tally.expected_scans;
     tally.nees_memory += 2.0 * score.expected->memory.value_or(kNothing) - 1.0;
@@ -256,6 +305,8 @@ void RunMetrics::count(ObjectTally& tally, const ScanScore& score) const {
 void RunMetrics::count_doubtful(ObjectTally& tally) const {
   for (const ScanScore& score : tally.doubtful) count(tally, score);
   tally.doubtful.clear();
+  for (const double square : tally.doubtful_known) tally.squared_known_error.add(square);
+  tally.doubtful_known.clear();
 }
 
 void RunMetrics::watch_settling(ObjectTally& tally, double error, double time) const {
@@ -295,6 +346,7 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
     report.rmse_position_ci95 =
         Interval{std::sqrt(std::max(0.0, square->low)), std::sqrt(square->high)};
   }
+  report.rmse_at_clock = tally.squared_known_error.root();
   report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);
   report.bias = tally.error / static_cast<double>(report.tracked);
   report.peak_error = tally.peak_error;
@@ -304,6 +356,12 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
     report.predicted_rmse = root_mean(tally.predicted_square, report.tracked);
     report.predicted_velocity = root_mean(tally.predicted_velocity_square, report.tracked);
     report.predicted_lag = mean(tally.predicted_lag, report.tracked);
+    if (tally.shadows_tell) {
+      report.predicted_rmse_ci95 = rms_interval(tally.predicted_by_shadows, report.tracked,
+                                                &ExpectedError::Value::Shadow::position);
+      report.predicted_velocity_ci95 = rms_interval(tally.predicted_by_shadows, report.tracked,
+                                                    &ExpectedError::Value::Shadow::velocity);
+    }
   }
   if (tally.expected_innovations == tally.innovations) {
     report.predicted_mai = mean(tally.predicted_innovation, tally.innovations);
@@ -329,7 +387,8 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
   return report;
 }
 
-RunReport RunMetrics::report() const {
+RunReport RunMetrics::report() {
+  score_sets();
   RunReport report;
   report.options = options_;
   TotalReport& total = report.total;
@@ -360,6 +419,7 @@ RunReport RunMetrics::report() const {
     innovation += tally.innovation;
     innovations += tally.innovations;
   }
+  total.rmse_of_pairs = squared_distance_.root();
   total.rmse_position = root_mean(error, tracked);
   total.rmse_velocity = root_mean(velocity, tracked);
   if (expected == tracked) total.predicted_rmse = root_mean(predicted, tracked);

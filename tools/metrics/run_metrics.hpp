@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -11,6 +12,7 @@
 #include "tools/metrics/batch_means.hpp"
 #include "tools/metrics/following.hpp"
 #include "tools/metrics/gospa.hpp"
+#include "tools/metrics/mean.hpp"
 #include "tools/metrics/mot_score.hpp"
 #include "tools/metrics/switches.hpp"
 #include "tools/record/run_counts.hpp"
@@ -55,11 +57,14 @@ struct ObjectReport {
   std::optional<double> rmse_position;         // √ mean |e|² [m]
   std::optional<Interval> rmse_position_ci95;  // 95 % confidence
   std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
+  std::optional<Interval> predicted_rmse_ci95;  // where shadows tell: see ExpectedError
   std::optional<double> best_fixed_gains;      // see Hindsight; for the caller to fill in [m]
   std::optional<double> crlb;                  // the same
   std::optional<double> smoother;              // the same
+  std::optional<double> rmse_at_clock;         // of what was known at the wall clock [m]
   std::optional<double> rmse_velocity;         // [m/s]
   std::optional<double> predicted_velocity;    // its prediction [m/s]
+  std::optional<Interval> predicted_velocity_ci95;  // as that of the position
   std::optional<double> measurement_rmse;      // of its raw detections [m]
   std::optional<Vec2> bias;                    // mean error [m]
   std::optional<double> peak_error;            // max |e| [m]
@@ -76,13 +81,14 @@ struct ObjectReport {
   std::optional<Interval> nis_bounds95;
 };
 
-/// Means over the scans in which there was a target or a track, and counts over the run.
+/// Means over the instants of scans at which there was a target or a track, and counts over the run.
 struct TotalReport {
   std::int64_t scans = 0;
   double gospa = 0.0;                                                      // [m]
   double gospa_localisation = 0.0, gospa_missed = 0.0, gospa_false = 0.0;  // [m^p]
   double ospa = 0.0;                                                       // [m]
   double missed_targets = 0.0, false_tracks = 0.0;                         // per scan
+  std::optional<double> rmse_of_pairs;  // over GOSPA's assignment [m]
   std::optional<double> rmse_position;                                     // over all objects [m]
   std::optional<double> predicted_rmse;                                    // [m]
   std::optional<double> rmse_velocity;                                     // [m/s]
@@ -120,7 +126,12 @@ class RunMetrics final : public RunObserver {
   /// Scans that came late are not scored.
   void add_tracks(const StepRecord& record) override;
 
-  RunReport report() const;
+  /// The error of the track that follows an object, as it was known then.
+  void add_known(const TruthSnapshot& truth, const TrackSnapshot& tracks,
+                 std::size_t contender) override;
+
+  /// Of all scans so far; no other one of the latest instant may follow.
+  RunReport report();
 
   /// The error of each object in the latest scan [m], by id; absent where no track follows it.
   const std::vector<std::optional<Vec2>>& latest_errors() const { return latest_errors_; }
@@ -161,6 +172,8 @@ class RunMetrics final : public RunObserver {
     bool followed = false;     // in the latest scan
     int ignored = 0;           // detections of the object in a row that its track did not use
     std::vector<ScanScore> doubtful;  // scans since then, which may belong to a loss
+    std::vector<double> doubtful_known;  // squared errors of what was known since then [m²]
+    Mean squared_known_error;
     BatchMeans squared_error;
     Vec2 error = Vec2::Zero();
     double peak_error = 0.0;
@@ -169,6 +182,8 @@ class RunMetrics final : public RunObserver {
     double predicted_velocity_square = 0.0;  // known
     double predicted_lag = 0.0;
     std::int64_t expected_scans = 0;
+    std::array<ExpectedError::Value::Shadow, ExpectedError::kShadows> predicted_by_shadows{};
+    bool shadows_tell = false;
     double predicted_innovation = 0.0;
     double predicted_nis = 0.0;
     std::int64_t expected_innovations = 0;
@@ -188,7 +203,15 @@ class RunMetrics final : public RunObserver {
     std::vector<Usage> usage;
   };
 
-  void score_sets(const StepRecord& record);
+  /// What is there at an instant.
+  struct Instant {
+    double time = 0.0;
+    std::vector<std::int64_t> truth_ids, track_ids;
+    std::vector<Vec2> truth, tracks;
+  };
+
+  void gather_sets(const StepRecord& record);
+  void score_sets();
   std::vector<std::optional<std::size_t>> choose_tracks(const StepRecord& record);
   void follow(const TruthState& truth, const TrackEstimate& track, const StepRecord& record,
               bool is_detected);
@@ -205,6 +228,8 @@ class RunMetrics final : public RunObserver {
   std::vector<ObjectTally> tallies_;  // by object
   Following following_;
   std::vector<std::optional<Vec2>> latest_errors_;
+  std::optional<Instant> instant_;  // whose sets are not scored yet
+  Mean squared_distance_;           // of GOSPA's pairs [m²]
   SwitchCounter switches_;
   MotScore mot_;
   TotalReport sums_;  // GOSPA and its kin, not yet divided by the number of scans

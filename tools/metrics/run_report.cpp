@@ -16,7 +16,27 @@ using json::interval;
 using json::number;
 using Json = nlohmann::ordered_json;
 
-Json object_json(const ObjectReport& object) {
+/// What sixteen shadows say of one run may be no more than a guess: then it is left out.
+ObjectReport as_far_as_known(ObjectReport object) {
+  constexpr double kWidest = 0.25;  // half an interval, beside its middle
+  const auto is_guess = [](const std::optional<Interval>& range) {
+    return range && range->high - range->low > kWidest * (range->high + range->low);
+  };
+  if (is_guess(object.predicted_velocity_ci95)) {
+    object.predicted_velocity.reset();
+    object.predicted_velocity_ci95.reset();
+  }
+  if (!is_guess(object.predicted_rmse_ci95)) return object;
+  object.predicted_rmse_ci95.reset();
+  for (auto* value : {&object.predicted_rmse, &object.predicted_lag, &object.predicted_mai,
+                      &object.predicted_nis}) {
+    value->reset();
+  }
+  return object;
+}
+
+Json object_json(const ObjectReport& as_computed) {
+  const ObjectReport object = as_far_as_known(as_computed);
   Json json;
   json["id"] = object.id;
   json["name"] = object.name;
@@ -33,12 +53,15 @@ Json object_json(const ObjectReport& object) {
   json["rmse"] = number(object.rmse_position);
   json["rmse_ci95"] = interval(object.rmse_position_ci95);
   json["predicted"] = number(object.predicted_rmse);
+  json["predicted_ci95"] = interval(object.predicted_rmse_ci95);
+  json["rmse_at_clock"] = number(object.rmse_at_clock);
   json["raw"] = number(object.measurement_rmse);
   json["best_fixed_gains"] = number(object.best_fixed_gains);
   json["crlb"] = number(object.crlb);
   json["smoother"] = number(object.smoother);
   json["rmse_velocity"] = number(object.rmse_velocity);
   json["predicted_velocity"] = number(object.predicted_velocity);
+  json["predicted_velocity_ci95"] = interval(object.predicted_velocity_ci95);
   json["bias"] = object.bias ? Json::array({number(object.bias->x()), number(object.bias->y())})
                              : Json(nullptr);
   json["peak_error"] = number(object.peak_error);
@@ -83,7 +106,8 @@ std::string counts_text(const RunCounts& counts) {
 Json total_json(const TotalReport& total) {
   Json json;
   json["scans"] = total.scans;
-  json["rmse"] = number(total.rmse_position);
+  json["rmse"] = number(total.rmse_of_pairs);
+  json["rmse_followed"] = number(total.rmse_position);
   json["predicted"] = number(total.predicted_rmse);
   json["rmse_velocity"] = number(total.rmse_velocity);
   json["raw"] = number(total.measurement_rmse);
@@ -152,20 +176,30 @@ void write_json(const RunReport& report, const std::function<void(std::string_vi
 std::string to_table(const RunReport& report, std::size_t width) {
   const bool has_bound = std::any_of(report.objects.begin(), report.objects.end(),
                                      [](const ObjectReport& object) { return object.crlb.has_value(); });
-  std::vector<TextColumn> columns = {{"object", 17},        {"regime", 8},
-                                     {"filter and gains", 26}, {"RMSE [m]", 8, true},
-                                     {"predicted", 9, true}, {"raw", 8, true},
-                                     {"best fixed", 10, true}};
+  const bool has_latency = std::any_of(
+      report.objects.begin(), report.objects.end(),
+      [](const ObjectReport& object) { return object.rmse_at_clock.has_value(); });
+  std::vector<TextColumn> columns = {
+      {"object", 17}, {"regime", 8}, {"filter and gains", 26}, {"RMSE [m]", 8, true}};
+  if (has_latency) columns.push_back({"at clock", 8, true});
+  columns.push_back({"predicted", 14, true});
+  for (const char* heading : {"raw", "best fixed"}) columns.push_back({heading, 10, true});
   if (has_bound) columns.push_back({"CRLB", 8, true});
   for (const char* heading : {"smoother", "MAI [m]"}) columns.push_back({heading, 8, true});
   columns.push_back({"used/missed", 12, true});
   std::vector<std::vector<std::string>> rows;
-  for (const ObjectReport& object : report.objects) {
+  for (const ObjectReport& as_computed : report.objects) {
+    const ObjectReport object = as_far_as_known(as_computed);
     std::vector<std::string>& row = rows.emplace_back();
     row = {object.name, object.regime,
            object.gains.empty() ? object.filter : object.filter + " " + object.gains};
-    for (const auto& rmse : {object.rmse_position, object.predicted_rmse, object.measurement_rmse,
-                             object.best_fixed_gains}) {
+    row.push_back(cell(object.rmse_position));
+    if (has_latency) row.push_back(cell(object.rmse_at_clock));
+    row.push_back(cell(object.predicted_rmse));
+    if (const auto& range = object.predicted_rmse_ci95) {
+      row.back() += fmt::format(" ±{:.1g}", 0.5 * (range->high - range->low));
+    }
+    for (const auto& rmse : {object.measurement_rmse, object.best_fixed_gains}) {
       row.push_back(cell(rmse));
     }
     if (has_bound) row.push_back(cell(object.crlb));
@@ -179,6 +213,7 @@ std::string to_table(const RunReport& report, std::size_t width) {
          "predicted: by theory; best fixed: expected of the best fixed gains in hindsight;\n"
          "smoother: knows later detections, too; raw: of the detections; MAI: mean absolute\n"
          "innovation; " +
+         std::string(has_latency ? "at clock: of what was known then;\n" : "") +
          std::string(has_bound ? "CRLB: no filter is expected to do better;\n" : "") +
          "used/missed: scans with and without a detection used\n" +
          fmt::format(

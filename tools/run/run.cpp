@@ -1,5 +1,6 @@
 #include "tools/run/run.hpp"
 
+#include <algorithm>
 #include <compare>
 #include <limits>
 #include <map>
@@ -36,6 +37,8 @@ class Run {
         observers_(observers),
         frame_times_(frame_times) {
     for (const Contender& contender : contenders) trackers_.push_back(contender.tracker);
+    has_latency_ = std::any_of(scene.sensors.begin(), scene.sensors.end(),
+                               [](const SensorConfig& sensor) { return sensor.latency > 0.0; });
   }
 
   void to_the_end() {
@@ -43,14 +46,17 @@ class Run {
     for (auto scan = schedule.next(); scan || !under_way_.empty(); scan = schedule.next()) {
       if (!scan || (!under_way_.empty() && under_way_.begin()->first.arrival < scan->time)) {
         auto arrived = under_way_.extract(under_way_.begin());
+        tell_what_was_known_before(arrived.key().arrival);
         show_frames_before(arrived.key().arrival);
         track(std::move(arrived.mapped()));
       } else {
         schedule.take(*scan);
+        tell_what_was_known_before(scan->time);
         show_frames_before(scan->time);
         sense(*scan);
       }
     }
+    tell_what_was_known_before(std::numeric_limits<double>::infinity());
     show_frames_before(std::numeric_limits<double>::infinity());
   }
 
@@ -76,6 +82,7 @@ class Run {
       observer->add_observation(*scan.truth, scan.observation);
     }
     if (trackers_.empty()) return;
+    if (has_latency_) latest_ = scan.truth;
     under_way_.emplace(ArrivalKey{entry.time + sensor.latency, entry.time, entry.sensor},
                        std::move(scan));
   }
@@ -88,6 +95,16 @@ class Run {
       record.tracks = trackers_[i].snapshot();
       for (RunObserver* observer : observers_) observer->add_tracks(record);
     }
+  }
+
+  /// Of the instant of the latest scan: all that came at that time has arrived.
+  void tell_what_was_known_before(double time) {
+    if (!latest_ || !(latest_->time < time)) return;
+    for (std::size_t i = 0; i < trackers_.size(); ++i) {
+      const TrackSnapshot known = trackers_[i].predicted(latest_->time);
+      for (RunObserver* observer : observers_) observer->add_known(*latest_, known, i);
+    }
+    latest_.reset();
   }
 
   void show_frames_before(double time) {
@@ -104,6 +121,8 @@ class Run {
   const RunObservers& observers_;
   std::span<const double> frame_times_;  // that are still to come
   std::vector<SceneTracker> trackers_;   // of the contenders
+  bool has_latency_ = false;
+  std::shared_ptr<const TruthSnapshot> latest_;  // of which it is yet to be told what was known
   std::map<ArrivalKey, SensedScan> under_way_;
 };
 

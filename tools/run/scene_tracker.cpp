@@ -7,6 +7,15 @@ namespace {
 
 bool is_known(const TrackerConfig& config) { return config.association == Association::kKnown; }
 
+void predict(TrackerState& state, double time) {
+  for (Track& track : state.tracks) ghtrack::predict(track.filter, time - state.time);
+  state.time = time;
+}
+void predict(KnownState& state, double time) {
+  for (auto& [object, tracker] : state.trackers) predict(tracker, time);
+  state.time = time;
+}
+
 }  // namespace
 
 SceneTracker::SceneTracker(TrackerConfig config, std::vector<SensorTraits> sensors)
@@ -33,6 +42,16 @@ ScanFate SceneTracker::step(const Observation& observation) {
 
 TrackSnapshot SceneTracker::snapshot() const {
   return std::visit([](const auto& state) { return ghtrack::snapshot(state.now); }, state_);
+}
+
+TrackSnapshot SceneTracker::predicted(double time) const {
+  return std::visit(
+      [time](const auto& state) {
+        auto then = state.now;
+        if (time > then.time) predict(then, time);
+        return ghtrack::snapshot(then);
+      },
+      state_);
 }
 
 const std::vector<ArrivalCounts>& SceneTracker::arrivals() const {

@@ -31,6 +31,8 @@ class SceneTracker {
 
   /// What it says after the latest scan.
   TrackSnapshot snapshot() const;
+  /// What it knows of a time not before the latest scan: its filters' predictions.
+  TrackSnapshot predicted(double time) const;
 
   const TrackerDesign& design() const { return design_; }
   /// By Scan::sensor, as far as scans have come.

@@ -91,6 +91,27 @@ TEST(RunMetrics, MeasuresErrorsPerObject) {
   EXPECT_EQ(report.options.matching(), 5.0);
 }
 
+// Derived: what is known of an object 0.5 m off counts by itself, while a track follows it; what is
+// said after a track has lost its object does not.
+TEST(RunMetrics, MeasuresWhatIsKnownAtTheWallClock) {
+  RunMetrics metrics({object(0, "ball")}, {.sigma = 1.0});
+  for (int i = 0; i < 30; ++i) {
+    StepRecord record = one_object(0.1 * i);
+    TrackEstimate estimate = track(1, {0.0, 0.2});
+    if (i < 20) estimate.detection = 0;
+    record.tracks.tracks = {estimate};
+    add(metrics, record);
+    TrackSnapshot known = record.tracks;
+    known.tracks[0].position = {0.3, i < 20 ? 0.4 : 7.0};
+    metrics.add_known(record.truth, known, 0);
+    metrics.add_known(record.truth, {}, 1);
+  }
+  const ObjectReport ball = metrics.report().objects[0];
+  EXPECT_NEAR(*ball.rmse_at_clock, 0.5, 1e-12);
+  EXPECT_NEAR(*ball.rmse_position, 0.2, 1e-12);
+  EXPECT_EQ(ball.track_losses, 1);
+}
+
 // Property: without knowledge of the filter nothing is predicted, and no zero stands for it.
 TEST(RunMetrics, PredictsNothingOfAnUnknownFilter) {
   RunMetrics metrics({object(0, "ball")}, {.sigma = 0.1});

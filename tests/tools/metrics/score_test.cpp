@@ -122,6 +122,30 @@ TEST(Score, ChargesGapsOfTheSlowerFileAtItsRate) {
   EXPECT_NEAR(result.mot.clear.mota, 41.0 / 50.0, 1e-12);
 }
 
+// Derived: perfect tracks at 10 Hz that are known 0.25 s late, of an object at 10 m/s and a truth at
+// 10 Hz: carried on at their velocity they are perfect from the third instant on; without one they
+// are 3 m behind, which is what a velocity that is 1 m/s too low makes 0.3 m.
+TEST(Score, ScoresWhatWasKnownAtTheWallClock) {
+  const auto scored = [](double velocity) {
+    Points tracks = line(0.0, 0.1, 50);
+    for (IdentifiedPoint& point : tracks) point.velocity = {velocity, 0.0};
+    const Points truth = line(0.0, 0.1, 50);
+    std::size_t objects = 0, estimates = 0;
+    const auto next_of = [](const Points& points, std::size_t& i) {
+      return i < points.size() ? Points{points[i++]} : Points{};
+    };
+    const AtClock clocked = at_clock({[&] { return next_of(truth, objects); }, 0.1},
+                                     {[&] { return next_of(tracks, estimates); }, 0.1}, 0.25);
+    return score_points(clocked.truth, clocked.tracks, {});
+  };
+  for (const auto& [velocity, error] : {std::pair{10.0, 0.0}, {9.0, 0.3}, {0.0, 3.0}}) {
+    const ScoreResult result = scored(velocity);
+    EXPECT_EQ(result.instants.matched, 47);
+    EXPECT_EQ(result.instants.truth_alone, 3);
+    EXPECT_NEAR(*result.rmse, error, 1e-9);
+  }
+}
+
 // Derived: the second of two pedestrians is a reflection; the track on it is left out under the
 // rules of MOT17 and false under those of MOT15, where classes mean nothing and it is matched.
 TEST(MotBenchmark, LeavesOutWhatMatchesADistractor) {

@@ -105,6 +105,49 @@ TEST(Run, EndsWithTheTracksOfTheRunInOrder) {
   }
 }
 
+// Derived: scans that come 0.25 s after they were made, ten times a second: at each scan's instant
+// the tracks are those of the third scan before, carried on for 0.3 s at their velocities.
+TEST(Run, TellsWhatIsKnownAtTheWallClock) {
+  WorldScene scene = scene_with("late_scans: replay");
+  scene.sensors.pop_back();
+  scene.sensors[0].latency = 0.25;
+  scene.tracker.filters = {
+      {"default", GhConfig{.design = gain_design::Manual<1>{.g = 0.5, .h = 0.2}}}};
+  std::vector<TrackSnapshot> concluded;
+  std::size_t instants = 0;
+  Listener listener;
+  listener.on_tracks = [&](const StepRecord& record) { concluded.push_back(record.tracks); };
+  listener.on_known = [&](const TruthSnapshot& truth, const TrackSnapshot& known) {
+    EXPECT_NEAR(truth.time, 0.1 * static_cast<double>(instants), 1e-9);
+    if (instants++ < 3) {
+      EXPECT_TRUE(known.tracks.empty());
+      return;
+    }
+    const TrackSnapshot& latest = concluded.at(instants - 4);
+    ASSERT_EQ(concluded.size(), instants - 3);
+    ASSERT_EQ(known.tracks.size(), latest.tracks.size());
+    for (std::size_t i = 0; i < known.tracks.size(); ++i) {
+      const TrackEstimate& track = latest.tracks[i];
+      const Vec2 carried = track.position + 0.3 * track.velocity;
+      EXPECT_NEAR((known.tracks[i].position - carried).norm(), 0.0, 1e-9);
+    }
+  };
+  SimulatedTruth truth([&] { return make_world(scene); });
+  run(scene, truth, std::vector{own_tracker(scene)}, {&listener});
+  EXPECT_EQ(instants, 41U);
+  EXPECT_GT(concluded.back().tracks.size(), 0U);
+}
+
+// Property: sensors without latency leave nothing to be told: what is known is what was concluded.
+TEST(Run, TellsNothingTwiceWithoutLatency) {
+  WorldScene scene = scene_with("late_scans: refuse");
+  scene.sensors[1].latency = 0.0;
+  Listener listener;
+  listener.on_known = [&](const TruthSnapshot&, const TrackSnapshot&) { ADD_FAILURE(); };
+  SimulatedTruth truth([&] { return make_world(scene); });
+  run(scene, truth, std::vector{own_tracker(scene)}, {&listener});
+}
+
 /// Position errors of a contender over a run, record by record.
 std::vector<Vec2> estimates_of(const WorldScene& scene, TruthSource& truth,
                                const std::vector<Contender>& contenders,
