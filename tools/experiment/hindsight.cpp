@@ -18,7 +18,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::infinity();
-constexpr double kDiffuse = 100.0;             // a start's uncertainty, in sigmas per period
+constexpr double kDiffuse = 100.0;       // a start's uncertainty, in sigmas per period
 constexpr double kMostLooks = 20'000.0;  // at all objects of a run
 constexpr std::size_t kMostSmoothed = 20'000;  // scans
 constexpr std::size_t kMostShadowed = 4'000;   // with errors of all kinds
@@ -80,14 +80,21 @@ class Judge {
     return gains.order == 1 ? manual<1>(gains) : manual<2>(gains);
   }
 
+  /// What a filter assumes of a target at first sight, 1-sigma: velocity and acceleration.
+  struct Start {
+    double speed = 0.0;         // [sigmas per period]
+    double acceleration = 0.0;  // [sigmas per period²]
+  };
+
   /// Kalata's gains in the steady state, and Kalman's on the way there.
   template <int Order>
-  GainFilter<2> kalman_like(double index) const {
+  GainFilter<2> kalman_like(double index, const Start& start) const {
     GainFilterConfig<Order> config;
     config.design = gain_design::TrackingIndex<Order>{.index = index};
     config.schedule = GainSource::kCovariance;
-    config.initial_speed = kDiffuse * design_.sigma / design_.period;
-    config.initial_acceleration = config.initial_speed / design_.period;
+    config.initial_speed = start.speed * design_.sigma / design_.period;
+    config.initial_acceleration =
+        start.acceleration * design_.sigma / (design_.period * design_.period);
     return std::get<GainFilter<2>>(make_filter(config, design_.sigma, design_.period));
   }
 
@@ -160,6 +167,28 @@ FoundGains best_of_order(const Judge& judge, int order) {
   return off.cost < on.cost ? off : FoundGains{start, on.cost};
 }
 
+/// The best filter that starts as Kalman's: by its index first, then by what it assumes of the start.
+template <int Order>
+FoundGains best_kalman_like(const Judge& judge) {
+  constexpr int kStarts = 8, kSections = 3;
+  Judge::Start start{.speed = kDiffuse, .acceleration = kDiffuse};
+  const auto cost_of = [&](double index) {
+    return judge.expected(judge.kalman_like<Order>(index, start));
+  };
+  const double index = least_over_indices(cost_of).at;
+  for (double Judge::Start::*part : {&Judge::Start::speed, &Judge::Start::acceleration}) {
+    if (Order == 1 && part == &Judge::Start::acceleration) break;
+    const FoundNumber best =
+        least_cost_of_number(1e-3, kDiffuse, kStarts, kSections, [&](double value) {
+          start.*part = value;
+          return cost_of(index);
+        });
+    start.*part = best.at;
+  }
+  const FoundNumber found = least_over_indices(cost_of);
+  return {tracking_index_gains(Order, found.at), found.cost};
+}
+
 /// Of all orders, and of filters that start as Kalman's.
 void find_best_gains(const Judge& judge, Hindsight& found) {
   double least = kNoValue;
@@ -169,12 +198,8 @@ void find_best_gains(const Judge& judge, Hindsight& found) {
     found.best = candidate.gains;
   };
   for (const int order : {0, 1, 2}) keep(best_of_order(judge, order));
-  const FoundNumber cv = least_over_indices(
-      [&](double index) { return judge.expected(judge.kalman_like<1>(index)); });
-  keep({tracking_index_gains(1, cv.at), cv.cost});
-  const FoundNumber ca = least_over_indices(
-      [&](double index) { return judge.expected(judge.kalman_like<2>(index)); });
-  keep({tracking_index_gains(2, ca.at), ca.cost});
+  keep(best_kalman_like<1>(judge));
+  keep(best_kalman_like<2>(judge));
   if (std::isfinite(least)) found.best_fixed_gains = least;
 }
 
