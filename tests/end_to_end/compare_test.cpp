@@ -372,6 +372,55 @@ TEST_F(Compare, TunesGainsAndWritesThem) {
   EXPECT_EQ(run(tune + "--jobs 1").exit_code, 0);
 }
 
+// Property: filters that are tuned first are tuned once and alike, whoever computes which runs, and an
+// interrupted comparison goes on with those that it had found.
+TEST_F(Compare, TunesAlikeHoweverTheRunsAreDealtOut) {
+  std::string text = kScene;
+  text.replace(text.find("  filters:"), 10, "  tuned: [gh, kalman]\n  filters:");
+  write(folder() / "tuned.yaml", text);
+  compare_unbroken("tuned.yaml");
+  EXPECT_THAT(contents(folder() / "unbroken/comparison.csv"),
+              AllOf(HasSubstr(",tuned g-h,"), HasSubstr(",tuned Kalman,"), HasSubstr(",nimble,")));
+  for (const char* shard : {"1/2", "0/2"}) {
+    ASSERT_EQ(compare("tuned.yaml -o parts --shard " + std::string(shard)).exit_code, 0);
+  }
+  ASSERT_EQ(compare("--merge parts").exit_code, 0);
+  expect_as_unbroken("parts");
+  ASSERT_EQ(compare("tuned.yaml -o gone --jobs 1").exit_code, 0);
+  for (const std::string& name : names_in(folder() / "gone")) {
+    if (!name.starts_with("tuned-")) fs::remove(folder() / "gone" / name);
+  }
+  ASSERT_EQ(compare("tuned.yaml -o gone --resume").exit_code, 0);
+  expect_as_unbroken("gone");
+  if (!has("mpirun")) return;
+  const Outcome ranks = run(mpirun(2, "tuned.yaml -o ranks --jobs 1"));
+  ASSERT_EQ(ranks.exit_code, 0) << ranks.err;
+  expect_as_unbroken("ranks");
+}
+
+// Property: the study tunes, compares, draws and writes its table; a second call has nothing to do and
+// writes the same.
+TEST_F(Compare, MakesTheStudy) {
+  const fs::path root(GHTRACK_SOURCE_DIR);
+  fs::create_directories(folder() / "tools");
+  fs::create_directories(folder() / "scenes");
+  fs::copy(root / "tools/study", folder() / "tools/study");
+  fs::copy(root / "scenes/study", folder() / "scenes/study");
+  const std::string study =
+      "tools/study $(command -v ghtrack) --runs 5 --sweep sensors[0].rate=1 --sweep "
+      "sensors[0].noise=3";
+  Outcome outcome = run(study);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string written = contents(folder() / "scenes/study/README.md");
+  for (const char* motion : {"train", "ball", "balloon", "aircraft"}) {
+    EXPECT_THAT(written, HasSubstr("| " + std::string(motion) + " |"));
+  }
+  EXPECT_TRUE(fs::exists(folder() / ".media/study.svg"));
+  outcome = run(study);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(contents(folder() / "scenes/study/README.md"), written);
+}
+
 // Property: tuning, which writes nothing before its end, can be interrupted.
 TEST_F(Compare, StopsTuningWhenInterrupted) {
   const Outcome outcome = run(

@@ -15,16 +15,25 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kConfidence = 0.95;
-constexpr double kNegligible = 0.01;      // of the best filter's mean: no difference that matters
-constexpr double kFollowedEnough = 0.95;  // of the share that the most faithful filter follows
-
 /// What one cell adds to the comparison; filters are numbered as its contenders.
 struct CellOutcome {
   std::vector<std::string> contenders;
   ComparedCell cell;
   std::vector<ComparisonRow> rows;
 };
+
+void tell(ComparisonRow& row, const FilterVerdict& verdict) {
+  row.mean = verdict.mean.mean;
+  row.ci95 = verdict.mean.ci95;
+  row.median = verdict.mean.median;
+  row.median_ci95 = verdict.mean.median_ci95;
+  row.has_heavy_tails = verdict.mean.has_heavy_tails;
+  row.runs = verdict.mean.values;
+  row.difference = verdict.difference;
+  row.difference_ci95 = verdict.difference_ci95;
+  row.significance = verdict.significance;
+  row.runs_to_decide = verdict.runs_to_decide;
+}
 
 /// Reduces the results of one cell.
 class CellReduction {
@@ -63,149 +72,49 @@ class CellReduction {
   /// One metric of one subject, of all contenders that have it.
   std::vector<ComparisonRow> rows_of(std::size_t subject, Metric metric,
                                      const SubjectTheory& theory) const {
-    std::vector<ComparisonRow> rows;
-    std::vector<std::vector<double>> values;
+    std::vector<std::size_t> filters;
+    std::vector<FilterRuns> runs;
     for (std::size_t contender = 0; contender < contenders(); ++contender) {
-      std::vector<double> of_runs = values_.at(layout_.value(contender, subject, metric));
-      const SampleMean mean = mean_of(of_runs, info(metric).average);
-      if (mean.values == 0) continue;
+      FilterRuns of_filter{
+          .values = values_.at(layout_.value(contender, subject, metric)),
+          .followed = values_.at(layout_.value(contender, subject, Metric::kTracked))};
+      const auto& values = of_filter.values;
+      if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); })) continue;
+      filters.push_back(contender);
+      runs.push_back(std::move(of_filter));
+    }
+    const std::vector<FilterVerdict> verdicts = judged(metric, runs, may_be_ruined());
+    std::vector<ComparisonRow> rows;
+    for (std::size_t i = 0; i < filters.size(); ++i) {
       ComparisonRow& row = rows.emplace_back();
-      row.filter = contender;
+      row.filter = filters[i];
       row.regime = trial_.subjects()[subject].regime;
       row.object = trial_.subjects()[subject].object;
       row.metric = metric;
-      row.gains = gains_of(contender, row.regime);
-      row.mean = mean.mean;
-      row.ci95 = mean.ci95;
-      row.median = mean.median;
-      row.median_ci95 = mean.median_ci95;
-      row.has_heavy_tails = mean.has_heavy_tails;
-      if (may_be_ruined(metric)) {
-        row.ci95.reset();
-        row.has_heavy_tails = true;
-      }
-      row.runs = mean.values;
-      const SampleMean predicted =
-          mean_of(values_.at(layout_.predicted(contender, subject, metric)), info(metric).average);
-      if (predicted.values == mean.values) row.predicted = predicted.mean;
-      if (metric == Metric::kRmsePosition) {
-        row.hindsight = theory.hindsight;
-        row.tracking_index = tracking_index(std::sqrt(0.5 * theory.square_acceleration),
-                                            trial_.scoring().sigma, trial_.scoring().period);
-      }
-      values.push_back(std::move(of_runs));
+      row.gains = gains_of(row.filter, row.regime);
+      tell(row, verdicts[i]);
+      predict(subject, row);
+      if (metric != Metric::kRmsePosition) continue;
+      row.hindsight = theory.hindsight;
+      row.tracking_index = tracking_index(std::sqrt(0.5 * theory.square_acceleration),
+                                          trial_.scoring().sigma, trial_.scoring().period);
     }
-    if (info(metric).better != Better::kNeither && rows.size() > 1) judge(subject, values, rows);
     return rows;
   }
 
-  /// Errors of trackers that find out for themselves what is whose have tails that no number of
-  /// runs within reach shows whole: a track that is dragged along by clutter, once in hundreds of
-  /// runs, weighs as much as all others. A mean's interval from a sample without it would be too
-  /// narrow.
-  bool may_be_ruined(Metric metric) const {
-    const bool is_error = metric == Metric::kRmsePosition || metric == Metric::kRmseVelocity ||
-                          metric == Metric::kPeakError;
-    return is_error && trial_.scene().tracker.association != Association::kKnown;
+  /// By the filter's closed forms, if they cover all the runs that have the metric. Where shadows
+  /// tell, a few of them may make most of the mean: then it is not known.
+  void predict(std::size_t subject, ComparisonRow& row) const {
+    const SampleMean mean =
+        mean_of(values_.at(layout_.predicted(row.filter, subject, row.metric)),
+                info(row.metric).average);
+    if (mean.values != row.runs || mean.has_heavy_tails) return;
+    row.predicted = mean.mean;
+    row.predicted_ci95 = mean.ci95;
   }
 
-  /// Judges several rows by their differences to the best of them. A filter that loses its objects
-  /// much more often than another one cannot win: what it keeps may be the easy part.
-  void judge(std::size_t subject, const std::vector<std::vector<double>>& values,
-             std::vector<ComparisonRow>& rows) const {
-    const bool by_median = may_be_ruined(rows.front().metric);
-    const Average average = by_median ? Average::kMedian : info(rows.front().metric).average;
-    const double sign = info(rows.front().metric).better == Better::kLess ? 1.0 : -1.0;
-    const auto middle = [&](std::size_t i) { return by_median ? rows[i].median : rows[i].mean; };
-    const std::vector<bool> loses = losers(subject, rows);
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (loses[i]) continue;
-      if (!best || sign * middle(i) < sign * middle(*best)) best = i;
-    }
-    if (!best) return;
-
-    const std::vector<PairedDifference> differences =
-        differences_to(*best, values, average, sign);
-    const double negligible = kNegligible * std::abs(middle(*best));
-    Significance of_best = Significance::kBest;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      ComparisonRow& row = rows[i];
-      if (i == *best) {
-        row.difference = 0.0;
-        continue;
-      }
-      const PairedDifference& difference = differences[i];
-      if (!std::isnan(difference.value)) row.difference = difference.value;
-      row.difference_ci95 = difference.interval;
-      row.significance = loses[i] ? Significance::kWorse : verdict_on(difference, sign, negligible);
-      if (row.significance == Significance::kUndecided) {
-        row.runs_to_decide = runs_to_decide(difference, negligible);
-      }
-      of_best = weaker(of_best, row.significance);
-    }
-    rows[*best].significance = of_best;
-  }
-
-  /// Differences to one of several samples, with intervals that hold for all together (Holm 1979):
-  /// the clearest of m differences is asked for a confidence of 1 − 0.05 / m; once some exclude zero,
-  /// those that are left share the 0.05 among themselves.
-  static std::vector<PairedDifference> differences_to(
-      std::size_t best, const std::vector<std::vector<double>>& values, Average average,
-      double sign) {
-    std::vector<PairedDifference> differences(values.size());
-    std::vector<bool> is_clear(values.size(), false);
-    is_clear[best] = true;
-    std::size_t left = values.size() - 1;
-    for (std::size_t before = left + 1; left > 0 && left < before;) {
-      before = left;
-      const double confidence = 1.0 - (1.0 - kConfidence) / static_cast<double>(before);
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        if (is_clear[i]) continue;
-        differences[i] = paired_difference(values[i], values[best], average, confidence);
-        const auto& interval = differences[i].interval;
-        is_clear[i] = interval && (sign > 0.0 ? interval->low > 0.0 : interval->high < 0.0);
-        if (is_clear[i]) --left;
-      }
-    }
-    return differences;
-  }
-
-  /// Which filters lose their objects much more often than the most faithful one, beyond chance.
-  std::vector<bool> losers(std::size_t subject, const std::vector<ComparisonRow>& rows) const {
-    std::vector<std::vector<double>> followed;
-    std::vector<double> shares;
-    for (const ComparisonRow& row : rows) {
-      followed.push_back(values_.at(layout_.value(row.filter, subject, Metric::kTracked)));
-      shares.push_back(mean_of(followed.back(), Average::kShare).mean);
-    }
-    const auto most = std::max_element(shares.begin(), shares.end());
-    const std::vector<double>& faithful = followed[static_cast<std::size_t>(most - shares.begin())];
-    std::vector<bool> loses;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const PairedDifference difference =
-          paired_difference(followed[i], faithful, Average::kShare, kConfidence);
-      loses.push_back(shares[i] < kFollowedEnough * *most && difference.interval &&
-                      difference.interval->high < 0.0);
-    }
-    return loses;
-  }
-
-  /// @param negligible  no difference that matters
-  static Significance verdict_on(const PairedDifference& difference, double sign,
-                                 double negligible) {
-    if (!difference.interval) return Significance::kTooFew;
-    const double low = sign > 0.0 ? difference.interval->low : -difference.interval->high;
-    const double high = sign > 0.0 ? difference.interval->high : -difference.interval->low;
-    if (low >= -negligible && high <= negligible) return Significance::kTied;
-    return low > 0.0 ? Significance::kWorse : Significance::kUndecided;
-  }
-
-  /// What can be said of the best filter once another one has this verdict.
-  static Significance weaker(Significance so_far, Significance other) {
-    if (other == Significance::kWorse || so_far == Significance::kTooFew) return so_far;
-    if (other == Significance::kTied && so_far == Significance::kUndecided) return so_far;
-    return other;
+  bool may_be_ruined() const {
+    return trial_.scene().tracker.association != Association::kKnown;
   }
 
   std::string gains_of(std::size_t contender, const std::string& regime) const {
@@ -303,24 +212,6 @@ Comparison compare(const Campaign& campaign, std::span<const CellGroup> groups,
     comparison.cells.push_back(std::move(outcome.cell));
   }
   return comparison;
-}
-
-std::string_view to_string(Significance significance) {
-  switch (significance) {
-    case Significance::kNone:
-      return "";
-    case Significance::kTooFew:
-      return "too few runs";
-    case Significance::kBest:
-      return "best";
-    case Significance::kTied:
-      return "tied";
-    case Significance::kUndecided:
-      return "undecided";
-    case Significance::kWorse:
-      return "worse";
-  }
-  return "";
 }
 
 }  // namespace ghtrack

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/experiment/campaign.hpp"
@@ -15,24 +14,13 @@
 #include "tools/experiment/metric.hpp"
 #include "tools/experiment/results.hpp"
 #include "tools/experiment/shared_truth.hpp"
+#include "tools/experiment/verdict.hpp"
 #include "tools/metrics/quantiles.hpp"
 #include "tracker/filters/gains/gains.hpp"
 
 // The outcome of a campaign: what `ghtrack compare` writes, prints and draws.
 
 namespace ghtrack {
-
-/// Whether a filter is better than all others, judged by 95 % intervals of its differences to the
-/// best one on the same runs, which hold for all filters together (Holm).
-enum class Significance {
-  kNone,       // not comparable: one filter, or a metric without better and worse
-  kTooFew,     // runs to judge by
-  kBest,       // better than every other filter
-  kTied,       // with the best: the difference is negligible, less than one in a hundred
-  kUndecided,  // it may be negligible, or not
-  kWorse,      // than the best
-};
-std::string_view to_string(Significance significance);
 
 /// One filter's value of one metric for one subject: an object, all objects of a regime, or the
 /// scene as a whole.
@@ -49,6 +37,7 @@ struct ComparisonRow {
   std::optional<Interval> median_ci95;  // absent with too few runs to tell
   bool has_heavy_tails = false;         // few runs make most of the mean: the median is what counts
   std::optional<double> predicted;      // by the filter's closed forms
+  std::optional<Interval> predicted_ci95;  // absent with too few runs to tell
   Hindsight hindsight;                  // of its subject; empty but for the RMSE of position
   std::optional<double> tracking_index;  // of its subject, a T² / σ; as the hindsight
   std::int64_t runs = 0;                // in which the metric has a value

@@ -42,7 +42,8 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
           {"mean", number(row.mean)},
           {"ci95", interval(row.ci95)},
           {"interval", interval_kind(info(row.metric).average)},
-          {"predicted", number(row.predicted)}};
+          {"predicted", number(row.predicted)},
+          {"predicted_ci95", range(row.predicted_ci95)}};
   for (const Reference& reference : kReferences) {
     json[std::string(reference.name)] = number(row.hindsight.*reference.value);
   }
@@ -137,7 +138,7 @@ std::string lost_text_of(const TableRows& tracked, const TableKey& key, std::siz
 std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "scene,regime,object,filter,gains,metric,mean,ci95_low,ci95_high,predicted,runs,sweep,unit,"
-      "interval,raw,best_fixed_gains,crlb,smoother,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails,tracking_index\n";
+      "interval,raw,best_fixed_gains,crlb,smoother,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails,tracking_index,predicted_low,predicted_high\n";
   CsvRow line;
   for (const ComparisonRow& row : comparison.rows) {
     const ComparedCell& cell = comparison.cells[row.cell];
@@ -148,7 +149,8 @@ std::string comparison_csv(const Comparison& comparison) {
          << row.hindsight.raw << row.hindsight.best_fixed_gains << row.hindsight.crlb
          << row.hindsight.smoother << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
          << to_string(row.significance) << row.runs_to_decide << row.median
-         << low(row.median_ci95) << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "") << row.tracking_index;
+         << low(row.median_ci95) << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "") << row.tracking_index
+         << low(row.predicted_ci95) << high(row.predicted_ci95);
     line.end();
     text += line.text();
   }

@@ -11,7 +11,7 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kConfidence = 0.96;  // of Student's intervals, for 95 %: see Average
+constexpr double kConfidence = 0.965;  // of Student's intervals of what is skewed: see Average
 constexpr double kMedianSlack = 0.02;            // five runs hold the median with 93.75 %
 constexpr double kNormal95 = 1.959963984540054;  // two-sided quantile of the normal distribution
 
@@ -83,26 +83,58 @@ std::optional<Interval> median_interval(std::vector<double> values, double confi
   return Interval{std::lerp(at(d - 1), at(d), share), std::lerp(at(n - d), at(n - d - 1), share)};
 }
 
-/// Of a Poisson mean by the score, (m − μ)² = q² φ μ / n, with φ the runs' variance over their mean.
-/// Where it is below 1, counts are too few to tell, or no more than Poisson's.
+/// The Poisson mean of which so many events or fewer have this probability, one half of that of just
+/// so many counted.
+double poisson_mean(double events, double probability) {
+  const auto at_most = [](double k, double mu) {
+    return k < 0.0 ? 0.0 : 1.0 - chi_square_probability(2.0 * mu, 2.0 * k + 2.0);
+  };
+  double low = 0.0, high = 2.0 * events + 20.0;
+  for (int i = 0; i < 60; ++i) {
+    const double mu = 0.5 * (low + high);
+    const bool is_below = 0.5 * (at_most(events, mu) + at_most(events - 1.0, mu)) > probability;
+    (is_below ? low : high) = mu;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Of a Poisson mean from a few events in all, by the mid-P limits (Cohen & Yang 1994), which hold it
+/// nearly as often as they say; of none it ends at 3.0, the rule of three.
+Interval few_events_interval(double events) {
+  return {events > 0.0 ? poisson_mean(events, 0.975) : 0.0, poisson_mean(events, 0.025)};
+}
+
+/// Of a Poisson mean by the score, (m − μ)² = q² φ μ / n, with φ the runs' variance over their mean;
+/// of few events no narrower than their number alone allows.
 Interval count_interval(std::span<const double> counts) {
-  constexpr double kTelling = 20.0;       // counts in all, from which on φ may be below 1
+  constexpr double kFew = 20.0;           // events in all, from which on φ may be below 1
   constexpr double kLeastScatter = 0.05;  // φ where all runs agree
   const auto runs = static_cast<double>(counts.size());
   const double m = mean(counts);
+  const bool are_few = m * runs < kFew;
   const double scatter = m > 0.0 ? variance(counts) / m : 1.0;
-  const double least = m * runs < kTelling ? 1.0 : kLeastScatter;
-  const bool is_poisson = scatter <= least;
+  const double least = are_few ? 1.0 : kLeastScatter;
+  const bool is_poisson = scatter <= least * (1.0 + 1e-9);
+  if (are_few && is_poisson) {
+    const Interval events = few_events_interval(m * runs);
+    return {events.low / runs, events.high / runs};
+  }
   const double q = is_poisson ? kNormal95 : student_quantile(0.975, std::ssize(counts) - 1);
   const double half = 0.5 * q * q * std::max(least, scatter) / runs;
   const double width = std::sqrt(2.0 * half * m + half * half);
-  return {std::max(0.0, m + half - width), m + half + width};
+  Interval interval{std::max(0.0, m + half - width), m + half + width};
+  if (are_few) {
+    const Interval events = few_events_interval(m * runs);
+    interval.low = std::min(interval.low, events.low / runs);
+    interval.high = std::max(interval.high, events.high / runs);
+  }
+  return interval;
 }
 
 /// The interval of a mean, on the scale of the logarithm where it cannot be negative.
 Interval mean_interval(std::span<const double> values, bool is_positive) {
   const double m = mean(values);
-  const double half = student_half_width(values, kConfidence);
+  const double half = student_half_width(values, is_positive ? kConfidence : 0.95);
   if (!is_positive || !(m > 0.0)) return {m - half, m + half};
   const double factor = std::exp(half / m);
   return {m / factor, m * factor};
@@ -120,8 +152,31 @@ Interval rate_interval(std::span<const double> rates) {
   return {std::max(0.0, m + half - width), m + half + width};
 }
 
+/// Third moment over the cube of the standard deviation, at most 3 either way.
+double skewness(std::span<const double> values) {
+  const double centre = mean(values);
+  double cubes = 0.0;
+  for (const double value : values) cubes += std::pow(value - centre, 3.0);
+  const auto count = static_cast<double>(values.size());
+  return std::clamp(cubes / count / std::pow(variance(values), 1.5), -3.0, 3.0);
+}
+
+/// Student's of the log odds, wider on the side of the tail (Johnson 1978): what few runs show of a
+/// share near 0 or 1 is mostly not its tail.
+Interval log_odds_interval(std::span<const double> shares, double p) {
+  constexpr double kWider = 0.97;
+  const auto count = static_cast<double>(shares.size());
+  const double t = student_quantile(0.5 + 0.5 * kWider, std::ssize(shares) - 1);
+  const double tail = skewness(shares) / (6.0 * std::sqrt(count)) * (2.0 * t * t + 1.0);
+  const double step = std::sqrt(variance(shares) / count) / (p * (1.0 - p));
+  const double odds = p / (1.0 - p);
+  const double low = odds * std::exp(-(t + std::max(0.0, -tail)) * step);
+  const double high = odds * std::exp((t + std::max(0.0, tail)) * step);
+  return {low / (1.0 + low), high / (1.0 + high)};
+}
+
 /// Wilson's, with as many trials as give the runs' scatter, n_e = n p (1 − p) / s²; where these are
-/// many, Student's of the log odds.
+/// many, of the log odds.
 Interval share_interval(std::span<const double> shares) {
   constexpr double kMany = 4.0;  // trials that a run is worth
   const auto runs = static_cast<double>(shares.size());
@@ -129,11 +184,7 @@ Interval share_interval(std::span<const double> shares) {
   const double scatter = variance(shares);
   const bool differ = scatter > 1e-18;  // more than by rounding
   const double trials = differ ? std::max(runs, runs * p * (1.0 - p) / scatter) : runs;
-  if (trials > kMany * runs) {
-    const double odds = p / (1.0 - p);
-    const double factor = std::exp(student_half_width(shares, kConfidence) / (p * (1.0 - p)));
-    return {odds / (odds + factor), odds * factor / (1.0 + odds * factor)};
-  }
+  if (trials > kMany * runs) return log_odds_interval(shares, p);
   const double q = differ ? student_quantile(0.975, std::ssize(shares) - 1) : kNormal95;
   const double z = q * q / trials;
   const double centre = (p + 0.5 * z) / (1.0 + z);

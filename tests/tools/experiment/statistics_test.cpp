@@ -15,16 +15,17 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-// Derived: mean 3, s² = 2.5, n = 5, t(0.98, 4) = 2.998528 (tables): half width t √(s²/n).
+// Derived: mean 3, s² = 2.5, n = 5, t(0.975, 4) = 2.776445 and t(0.9825, 4) = 3.135495: half
+// width t √(s²/n), on the logarithm of what is positive.
 TEST(MeanOf, GivesStudentsInterval) {
   const std::vector<double> values = {1.0, 2.0, 3.0, 4.0, 5.0};
   const SampleMean mean = mean_of(values, Average::kMean);
   EXPECT_DOUBLE_EQ(mean.mean, 3.0);
   EXPECT_EQ(mean.values, 5);
-  EXPECT_NEAR(mean.ci95->high - 3.0, 2.998528 * std::sqrt(0.5), 1e-5);
-  EXPECT_NEAR(3.0 - mean.ci95->low, 2.998528 * std::sqrt(0.5), 1e-5);
+  EXPECT_NEAR(mean.ci95->high - 3.0, 2.776445 * std::sqrt(0.5), 1e-5);
+  EXPECT_NEAR(3.0 - mean.ci95->low, 2.776445 * std::sqrt(0.5), 1e-5);
   const SampleMean positive = mean_of(values, Average::kPositiveMean);
-  EXPECT_NEAR(std::log(positive.ci95->high / 3.0), 2.998528 * std::sqrt(0.5) / 3.0, 1e-5);
+  EXPECT_NEAR(std::log(positive.ci95->high / 3.0), 3.135495 * std::sqrt(0.5) / 3.0, 1e-5);
   EXPECT_NEAR(positive.ci95->low * positive.ci95->high, 9.0, 1e-9);
 }
 
@@ -48,13 +49,14 @@ TEST(MeanOf, LeavesOutWhatDidNotOccur) {
   }
 }
 
-// Derived: the score interval of a Poisson mean with no event in five runs ends at z² / n = 0.768;
+// Derived: the mid-P interval of a Poisson mean with no event in five runs ends where half of e^(−5μ)
+// is 0.025, at 0.599;
 // Wilson's of five trials that all succeed begins at n / (n + z²) = 0.566.
 TEST(MeanOf, KnowsThatNothingSeenIsNotNothing) {
   const std::vector<double> never(5, 0.0);
   const Interval losses = *mean_of(never, Average::kCount).ci95;
   EXPECT_EQ(losses.low, 0.0);
-  EXPECT_NEAR(losses.high, 0.768, 1e-3);
+  EXPECT_NEAR(losses.high, std::log(20.0) / 5.0, 1e-9);
   const std::vector<double> always(5, 1.0);
   const Interval share = *mean_of(always, Average::kShare).ci95;
   EXPECT_NEAR(share.low, 0.566, 1e-3);
@@ -138,6 +140,7 @@ TEST(MeanOf, CoversTheExpectationAsOftenAsItSays) {
     covers(Average::kRootMeanSquare, 1.0, [](Stream& s) { return std::sqrt(lognormal(s)); });
     covers(Average::kMedian, std::log(2.0), [](Stream& s) { return s.exponential(); });
     covers(Average::kCount, 0.7, [](Stream& s) { return double{1.0} * s.poisson(0.7); });
+    covers(Average::kCount, 0.05, [](Stream& s) { return double{1.0} * s.poisson(0.05); });
     covers(Average::kCount, 3.0, [](Stream& s) { return double{1.0} * s.poisson(3.0); });
     covers(Average::kRate, 0.375,
            [](Stream& s) { return std::max(0.0, (4.0 * s.uniform() - 1.0) / 3.0); });
