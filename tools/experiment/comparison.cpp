@@ -103,12 +103,17 @@ class CellReduction {
   }
 
   /// By the filter's closed forms, if they cover all the runs that have the metric. Where shadows
-  /// tell, a few of them may make most of the mean: then it is not known.
+  /// tell, a few of them may make most of the mean, so that it is known less well than by measuring:
+  /// then it is not known.
   void predict(std::size_t subject, ComparisonRow& row) const {
     const SampleMean mean =
         mean_of(values_.at(layout_.predicted(row.filter, subject, row.metric)),
                 info(row.metric).average);
-    if (mean.values != row.runs || mean.has_heavy_tails) return;
+    if (mean.values != row.runs) return;
+    if (mean.has_heavy_tails && mean.ci95 && row.ci95 &&
+        mean.ci95->high - mean.ci95->low > row.ci95->high - row.ci95->low) {
+      return;
+    }
     row.predicted = mean.mean;
     row.predicted_ci95 = mean.ci95;
   }

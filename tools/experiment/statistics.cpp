@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kConfidence = 0.965;  // of Student's intervals of what is skewed: see Average
+constexpr double kFew = 20.0;         // events in all that hardly tell how they scatter
 constexpr double kMedianSlack = 0.02;            // five runs hold the median with 93.75 %
 constexpr double kNormal95 = 1.959963984540054;  // two-sided quantile of the normal distribution
 
@@ -107,8 +108,7 @@ Interval few_events_interval(double events) {
 /// Of a Poisson mean by the score, (m − μ)² = q² φ μ / n, with φ the runs' variance over their mean;
 /// of few events no narrower than their number alone allows.
 Interval count_interval(std::span<const double> counts) {
-  constexpr double kFew = 20.0;           // events in all, from which on φ may be below 1
-  constexpr double kLeastScatter = 0.05;  // φ where all runs agree
+  constexpr double kLeastScatter = 0.05;  // φ where all runs agree, unless events are few
   const auto runs = static_cast<double>(counts.size());
   const double m = mean(counts);
   const bool are_few = m * runs < kFew;
@@ -176,7 +176,8 @@ Interval log_odds_interval(std::span<const double> shares, double p) {
 }
 
 /// Wilson's, with as many trials as give the runs' scatter, n_e = n p (1 − p) / s²; where these are
-/// many, of the log odds.
+/// many, of the log odds. Of few failures, or few successes, it leaves as much room beyond them as
+/// their mid-P limit does.
 Interval share_interval(std::span<const double> shares) {
   constexpr double kMany = 4.0;  // trials that a run is worth
   const auto runs = static_cast<double>(shares.size());
@@ -189,7 +190,17 @@ Interval share_interval(std::span<const double> shares) {
   const double z = q * q / trials;
   const double centre = (p + 0.5 * z) / (1.0 + z);
   const double half = std::sqrt(z * p * (1.0 - p) + 0.25 * z * z) / (1.0 + z);
-  return {std::max(0.0, centre - half), std::min(1.0, centre + half)};
+  Interval interval{std::max(0.0, centre - half), std::min(1.0, centre + half)};
+  const double rare = trials * std::min(p, 1.0 - p);
+  if (rare > 0.0 && rare < kFew) {
+    const double least = few_events_interval(rare).low / trials;
+    if (p > 0.5) {
+      interval.high = std::max(interval.high, 1.0 - least);
+    } else {
+      interval.low = std::min(interval.low, least);
+    }
+  }
+  return interval;
 }
 
 /// One value is so far out that it makes much of the mean: more than twenty times as far above the

@@ -126,13 +126,15 @@ double lognormal(Stream& stream) {
 }
 
 // Property: a 95 % interval misses one time in twenty. 2000 samples tell that to ±0.015 (three
-// standard errors); what is skewed may lack two in a hundred, counts are told more than they ask.
+// standard errors); what is skewed may lack two in a hundred, counts are told more than they ask, and
+// of rare failures no interval can be told that never holds more often than it says.
 TEST(MeanOf, CoversTheExpectationAsOftenAsItSays) {
   for (const std::size_t runs : {5U, 10U, 20U, 50U}) {
-    const auto covers = [&](Average average, double expectation, double (*draw)(Stream&)) {
+    const auto covers = [&](Average average, double expectation, double (*draw)(Stream&),
+                            double most = 0.99) {
       const double share = coverage(average, runs, expectation, draw);
       EXPECT_GT(share, 0.915) << runs << " runs, " << interval_kind(average);
-      EXPECT_LT(share, 0.99) << runs << " runs, " << interval_kind(average);
+      EXPECT_LE(share, most) << runs << " runs, " << interval_kind(average);
     };
     covers(Average::kMean, 0.0, [](Stream& s) { return s.normal(); });
     covers(Average::kPositiveMean, 1.0, lognormal);
@@ -144,6 +146,7 @@ TEST(MeanOf, CoversTheExpectationAsOftenAsItSays) {
     covers(Average::kCount, 3.0, [](Stream& s) { return double{1.0} * s.poisson(3.0); });
     covers(Average::kRate, 0.375,
            [](Stream& s) { return std::max(0.0, (4.0 * s.uniform() - 1.0) / 3.0); });
+    covers(Average::kShare, 0.97, [](Stream& s) { return s.uniform() < 0.97 ? 1.0 : 0.0; }, 1.0);
     covers(Average::kShare, 2.0 / 3.0, [](Stream& s) { return std::sqrt(s.uniform()); });
   }
 }
