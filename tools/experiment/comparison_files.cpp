@@ -43,7 +43,7 @@ Json row_json(const ComparisonRow& row, const Comparison& comparison) {
           {"ci95", interval(row.ci95)},
           {"interval", interval_kind(info(row.metric).average)},
           {"predicted", number(row.predicted)},
-          {"predicted_ci95", range(row.predicted_ci95)}};
+          {"predicted_ci95", interval(row.predicted_ci95)}};
   for (const Reference& reference : kReferences) {
     json[std::string(reference.name)] = number(row.hindsight.*reference.value);
   }
