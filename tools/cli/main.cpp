@@ -510,8 +510,8 @@ void add_score(CLI::App& app, ScoreOptions& options) {
              "what was known then, carried on at its velocity (columns vx and vy)");
   command
       .add_option("--benchmark", options.benchmark,
-                  "whose rules say which boxes are scored: MOT15, MOT16, MOT17, MOT20, none, or "
-                  "auto: as the truth file shows")
+                  "whose rules say which boxes are scored: MOT15, MOT16, MOT17, MOT20, KITTI-car, "
+                  "KITTI-pedestrian, none, or auto: as the truth file shows")
       ->capture_default_str();
   command.add_option("--matches", options.matches,
                      "also write which track matched which object at each instant, CSV");

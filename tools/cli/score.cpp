@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "scenes/schema/diagnostic.hpp"
@@ -14,6 +16,7 @@
 #include "tools/cli/messages.hpp"
 #include "tools/cli/score_files.hpp"
 #include "tools/cli/usage_error.hpp"
+#include "tools/metrics/kitti_benchmark.hpp"
 #include "tools/metrics/match_writer.hpp"
 #include "tools/metrics/mot_benchmark.hpp"
 #include "tools/metrics/point_scoring.hpp"
@@ -102,6 +105,15 @@ class Extras {
     if (matches_) matches_->add(sequence, step.score.time, step.matches, truth, tracks);
   }
 
+  /// Adds the steps of one sequence of boxes.
+  OnBoxStep of(const std::string& sequence) {
+    return [this, sequence](const Scorer::Step& step, const ScoredSet& truth,
+                            const ScoredSet& tracks) {
+      stop_if_interrupted();
+      add(sequence, step, truth, tracks);
+    };
+  }
+
   void commit() {
     if (steps_) steps_->commit();
     if (matches_) matches_->commit();
@@ -118,27 +130,20 @@ ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, 
   if (options.latency) throw UsageError("score: --latency is for points, not for boxes");
   const std::vector<MotRow> truth = read_mot_file(pair.truth, MotKind::kTruth);
   const std::vector<MotRow> tracks = read_mot_file(pair.tracks, MotKind::kResult);
-  const bool are_labels = looks_like_kitti_file(pair.truth);
   const bool automatic = options.benchmark == "auto";
-  const auto named = !automatic   ? benchmark_named(options.benchmark)
-                     : are_labels ? MotBenchmark::kNone
-                                  : std::optional(recognise_benchmark(pair.truth, truth));
+  const auto named = automatic ? std::optional(recognise_benchmark(pair.truth, truth))
+                               : benchmark_named(options.benchmark);
   if (!named) {
     throw UsageError(fmt::format(
-        "score: --benchmark is '{}'; allowed are auto, MOT15, MOT16, MOT17, MOT20 and none",
+        "score: --benchmark is '{}'; allowed are auto, MOT15, MOT16, MOT17, MOT20, none and, for "
+        "labels of KITTI, KITTI-car and KITTI-pedestrian",
         shown(options.benchmark)));
   }
   if (automatic && !manners.quiet) {
-    tell("ghtrack: {}: {}", pair.truth,
-         are_labels ? "labels of KITTI; all types are scored alike, and DontCare is left out"
-                    : fmt::format("scored under the rules of {}", to_string(*named)));
+    tell("ghtrack: {}: scored under the rules of {}", pair.truth, to_string(*named));
   }
   return score_boxes(*named, pair.truth, truth, tracks, settings(options, pair, true),
-                     [&](const Scorer::Step& step, const ScoredSet& objects,
-                         const ScoredSet& estimates) {
-                       stop_if_interrupted();
-                       extras.add(pair.name, step, objects, estimates);
-                     });
+                     extras.of(pair.name));
 }
 
 /// Says which instants had no counterpart, and what became of them.
@@ -192,6 +197,62 @@ bool are_boxes(const ScoreOptions& options, const ScorePair& pair) {
           looks_like_mot_file(pair.truth));
 }
 
+/// What gets scores of its own.
+struct Part {
+  std::string name;
+  std::function<ScoreResult(Extras&)> score;
+};
+
+/// The parts of a sequence with labels of KITTI: one of each kind that it has, or that was asked
+/// for.
+void add_labels(const ScoreOptions& options, const ScorePair& pair, std::vector<Part>& parts,
+                const Manners& manners) {
+  const auto truth = std::make_shared<KittiFile>(read_kitti_file(pair.truth, MotKind::kTruth));
+  const auto tracks = std::make_shared<KittiFile>(read_kitti_file(pair.tracks, MotKind::kResult));
+  std::string kinds;
+  for (const KittiClass kind : kKittiClasses) {
+    const bool automatic = options.benchmark == "auto";
+    if (automatic ? !has_class(*truth, kind) && !has_class(*tracks, kind)
+                  : kind != kitti_class_named(options.benchmark)) {
+      continue;
+    }
+    const std::string name = fmt::format("{}, {}", pair.name, to_string(kind));
+    kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ", to_string(kind));
+    parts.push_back({name, [=, &options](Extras& extras) {
+                       return score_labels(kind, *truth, *tracks, settings(options, pair, true),
+                                           extras.of(name));
+                     }});
+  }
+  if (kinds.empty()) {
+    throw InputError(fmt::format(
+        "{}: error: KITTI scores cars and pedestrians, and there are none; --benchmark none scores "
+        "every type",
+        pair.truth));
+  }
+  if (!manners.quiet) {
+    tell("ghtrack: {}: scored under the rules of KITTI for each {}", pair.truth, kinds);
+  }
+}
+
+std::vector<Part> parts_of(const ScoreOptions& options, const std::vector<ScorePair>& pairs,
+                           const Manners& manners) {
+  std::vector<Part> parts;
+  for (const ScorePair& pair : pairs) {
+    const bool boxes = are_boxes(options, pair);
+    const bool by_kind =
+        options.benchmark == "auto" || kitti_class_named(options.benchmark).has_value();
+    if (boxes && by_kind && looks_like_kitti_file(pair.truth)) {
+      add_labels(options, pair, parts, manners);
+      continue;
+    }
+    parts.push_back({pair.name, [&options, &manners, pair, boxes](Extras& extras) {
+                       return boxes ? score_box_files(options, pair, extras, manners)
+                                    : score_point_files(options, pair, extras, manners);
+                     }});
+  }
+  return parts;
+}
+
 }  // namespace
 
 int score(const ScoreOptions& options, const Manners& manners) {
@@ -200,14 +261,11 @@ int score(const ScoreOptions& options, const Manners& manners) {
     throw UsageError(
         fmt::format("score: --format is '{}'; allowed are auto, csv, mot and kitti", options.format));
   }
-  const std::vector<ScorePair> pairs = pairs_to_score(options);
-  const bool several = pairs.size() > 1;
+  const std::vector<Part> parts = parts_of(options, pairs_to_score(options), manners);
+  const bool several = parts.size() > 1;
   Extras extras(options, several);
   std::vector<ScoreResult> results;
-  for (const ScorePair& pair : pairs) {
-    results.push_back(are_boxes(options, pair) ? score_box_files(options, pair, extras, manners)
-                                               : score_point_files(options, pair, extras, manners));
-  }
+  for (const Part& part : parts) results.push_back(part.score(extras));
   extras.commit();
   const ScoreResult total = several ? combine(results) : results.front();
   if (!total.trajectories && !manners.quiet) {
@@ -216,14 +274,14 @@ int score(const ScoreOptions& options, const Manners& manners) {
   }
   if (options.json) {
     nlohmann::ordered_json json = to_json(total);
-    for (std::size_t i = 0; several && i < pairs.size(); ++i) {
-      json["sequences"][pairs[i].name] = to_json(results[i]);
+    for (std::size_t i = 0; several && i < parts.size(); ++i) {
+      json["sequences"][parts[i].name] = to_json(results[i]);
     }
     print(json.dump() + "\n");
     return 0;
   }
-  for (std::size_t i = 0; several && i < pairs.size(); ++i) {
-    print(fmt::format("{}\n{}\n", printable(pairs[i].name), to_text(results[i])));
+  for (std::size_t i = 0; several && i < parts.size(); ++i) {
+    print(fmt::format("{}\n{}\n", printable(parts[i].name), to_text(results[i])));
   }
   print((several ? "combined\n" : "") + to_text(total));
   return 0;

@@ -409,7 +409,7 @@ std::string result_rows(const std::vector<MotRow>& tracks, const fs::path& detec
     for (const MotRow& row : tracks) append_mot_row(text, row);
     return text;
   }
-  const auto types = types_of(tracks, read_kitti_file(detections, MotKind::kDetections));
+  const auto types = types_of(tracks, read_kitti_file(detections, MotKind::kDetections).rows);
   for (const MotRow& row : tracks) {
     const auto type = types.find(row.id);
     append_kitti_row(text, {row, type == types.end() ? "Misc" : type->second});

@@ -6,7 +6,7 @@
 #include <array>
 #include <map>
 
-#include "tools/metrics/best_pairs.hpp"
+#include "tools/metrics/box_frames.hpp"
 #include "tools/record/errors.hpp"
 
 namespace ghtrack {
@@ -16,7 +16,6 @@ constexpr std::int32_t kPedestrian = 1;
 constexpr std::int32_t kLastClass = 13;
 constexpr std::array<std::int32_t, 4> kDistractors = {2, 7, 8, 12};
 constexpr std::int32_t kNonMotVehicle = 6;  // a distractor in MOT20
-constexpr double kSameBox = 0.5;            // IoU
 
 struct Name {
   MotBenchmark benchmark;
@@ -41,32 +40,14 @@ bool is_scored(MotBenchmark benchmark, const MotRow& row) {
   return row.confidence != 0.0 && (!has_classes(benchmark) || row.category == kPedestrian);
 }
 
-Box box_of(const MotRow& row) { return {row.left, row.top, row.width, row.height}; }
-
-/// Takes the rows of the first frame off the front.
-std::span<const MotRow> take_frame(std::span<const MotRow>& rows, std::int32_t frame) {
-  std::size_t count = 0;
-  while (count < rows.size() && rows[count].frame == frame) ++count;
-  const auto taken = rows.first(count);
-  rows = rows.subspan(count);
-  return taken;
-}
-
 /// Which boxes of tracks match a distractor of the truth.
 std::vector<bool> on_distractors(MotBenchmark benchmark, std::span<const MotRow> truth,
                                  std::span<const MotRow> tracks) {
   std::vector<bool> result(tracks.size(), false);
-  std::vector<Box> truth_boxes, track_boxes;
-  for (const MotRow& row : truth) truth_boxes.push_back(box_of(row));
-  for (const MotRow& row : tracks) track_boxes.push_back(box_of(row));
-  std::vector<Pair> pairs = overlapping_pairs(truth_boxes, track_boxes);
-  std::erase_if(pairs,
-                [](const Pair& pair) { return pair.value < kSameBox - kSimilarityRounding; });
-  for (const std::size_t i : most_valuable_pairs(pairs, static_cast<int>(truth.size()),
-                                                 static_cast<int>(tracks.size()))) {
-    if (is_distractor(benchmark, truth[static_cast<std::size_t>(pairs[i].truth)].category)) {
-      result[static_cast<std::size_t>(pairs[i].track)] = true;
-    }
+  if (!has_classes(benchmark)) return result;
+  const auto matches = same_boxes(truth, tracks);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    result[i] = matches[i] && is_distractor(benchmark, truth[*matches[i]].category);
   }
   return result;
 }
@@ -127,8 +108,7 @@ MotBenchmark recognise_benchmark(const std::filesystem::path& path, std::span<co
 
 ScoreResult score_boxes(
     MotBenchmark benchmark, const std::string& truth_name, std::span<const MotRow> truth,
-    std::span<const MotRow> tracks, const ScoreOptions& options,
-    const std::function<void(const Scorer::Step&, const ScoredSet&, const ScoredSet&)>& on_step) {
+    std::span<const MotRow> tracks, const ScoreOptions& options, const OnBoxStep& on_step) {
   if (has_classes(benchmark)) refuse_other_classes(tracks);
   if (!truth.empty() && std::none_of(truth.begin(), truth.end(), [&](const MotRow& row) {
         return is_scored(benchmark, row);
@@ -138,35 +118,16 @@ ScoreResult score_boxes(
         truth.size(), to_string(benchmark), reasons(truth),
         has_classes(benchmark) ? "; --benchmark none scores every class" : ""));
   }
-  Scorer scorer(options, true);
-  InstantCounts instants;
-  ScoredSet objects, estimates;
-  while (!truth.empty() || !tracks.empty()) {
-    const std::int32_t frame = truth.empty()    ? tracks.front().frame
-                               : tracks.empty() ? truth.front().frame
-                                                : std::min(truth.front().frame, tracks.front().frame);
-    const auto truth_now = take_frame(truth, frame);
-    const auto tracks_now = take_frame(tracks, frame);
-    const std::vector<bool> removed = has_classes(benchmark)
-                                          ? on_distractors(benchmark, truth_now, tracks_now)
-                                          : std::vector<bool>(tracks_now.size(), false);
-    objects.clear();
-    estimates.clear();
-    for (const MotRow& row : truth_now) {
-      if (is_scored(benchmark, row)) objects.add(row.id, box_of(row));
-    }
-    for (std::size_t i = 0; i < tracks_now.size(); ++i) {
-      if (!removed[i]) estimates.add(tracks_now[i].id, box_of(tracks_now[i]));
-    }
-    if (objects.ids.empty() && estimates.ids.empty()) continue;
-    ++(objects.ids.empty()     ? instants.tracks_alone
-       : estimates.ids.empty() ? instants.truth_alone
-                               : instants.matched);
-    const Scorer::Step step = scorer.add(frame, objects, estimates);
-    if (on_step) on_step(step, objects, estimates);
-  }
-  ScoreResult result = scorer.result();
-  result.instants = instants;
+  ScoreResult result = score_box_frames(
+      truth, tracks, options,
+      [&](std::span<const MotRow> truth_now, std::span<const MotRow> tracks_now) {
+        BoxSelection selection;
+        for (const MotRow& row : truth_now) selection.truth.push_back(is_scored(benchmark, row));
+        selection.tracks = on_distractors(benchmark, truth_now, tracks_now);
+        selection.tracks.flip();
+        return selection;
+      },
+      on_step);
   result.benchmark = to_string(benchmark);
   return result;
 }

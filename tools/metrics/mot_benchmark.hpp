@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/metrics/score.hpp"
+#include "tools/metrics/box_frames.hpp"
 #include "tools/record/mot_file.hpp"
 
 namespace ghtrack {
@@ -41,7 +41,6 @@ MotBenchmark recognise_benchmark(const std::filesystem::path& path, std::span<co
 /// pedestrian
 ScoreResult score_boxes(
     MotBenchmark benchmark, const std::string& truth_name, std::span<const MotRow> truth,
-    std::span<const MotRow> tracks, const ScoreOptions& options,
-    const std::function<void(const Scorer::Step&, const ScoredSet&, const ScoredSet&)>& on_step);
+    std::span<const MotRow> tracks, const ScoreOptions& options, const OnBoxStep& on_step);
 
 }  // namespace ghtrack

@@ -52,9 +52,11 @@ std::optional<KittiRow> parse_row(const std::vector<std::string_view>& words, st
     findings.add(line, fmt::format("id {} is not a whole number", in_quotes(words[1])));
     return std::nullopt;
   }
-  std::array<double, 5> numbers{};  // left, top, right, bottom, score
+  // truncated, occluded, left, top, right, bottom, score
+  constexpr std::array<std::size_t, 7> kPlaces{3, 4, 6, 7, 8, 9, kFields};
+  std::array<double, kPlaces.size()> numbers{};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::size_t field = i < 4 ? 6 + i : kFields;
+    const std::size_t field = kPlaces[i];
     if (field == words.size()) break;
     const auto number = parse_number(words[field]);
     if (!number) {
@@ -64,7 +66,7 @@ std::optional<KittiRow> parse_row(const std::vector<std::string_view>& words, st
     }
     numbers[i] = *number;
   }
-  const auto& [left, top, right, bottom, score] = numbers;
+  const auto& [truncated, occluded, left, top, right, bottom, score] = numbers;
   if (!(right > left) || !(bottom > top)) {
     findings.add(line, fmt::format("the box from {}, {} to {}, {} has no area", left, top, right,
                                    bottom));
@@ -76,7 +78,9 @@ std::optional<KittiRow> parse_row(const std::vector<std::string_view>& words, st
                        .top = top + 1.0,
                        .width = right - left,
                        .height = bottom - top},
-               .type = std::string(words[2])};
+               .type = std::string(words[2]),
+               .truncated = static_cast<int>(std::clamp(truncated, -1.0, 9.0)),
+               .occluded = static_cast<int>(std::clamp(occluded, -1.0, 9.0))};
   if (words.size() > kFields) row.box.confidence = score;
   return row;
 }
@@ -95,21 +99,27 @@ bool looks_like_kitti_file(const std::filesystem::path& path) {
   return has_fields(words) && parse_whole(words[0]) && !parse_number(words[2]);
 }
 
-std::vector<KittiRow> read_kitti_file(const std::filesystem::path& path, MotKind kind) {
+KittiFile read_kitti_file(const std::filesystem::path& path, MotKind kind) {
   const std::string text = read_text_file(path);
   Findings findings(path.string());
   Lines lines(text);
-  std::vector<KittiRow> rows;
+  KittiFile labels;
+  auto& [rows, unlabelled] = labels;
   for (auto line = lines.next(); line && !findings.enough(); line = lines.next()) {
     const auto words = words_of(*line);
-    if (words.empty() || (words.size() > 2 && words[2] == kNotLabelled)) continue;
-    if (auto row = parse_row(words, lines.number(), findings)) rows.push_back(std::move(*row));
+    if (words.empty()) continue;
+    auto row = parse_row(words, lines.number(), findings);
+    if (!row) continue;
+    if (row->type == kNotLabelled) {
+      unlabelled.push_back(row->box);
+    } else {
+      rows.push_back(std::move(*row));
+    }
   }
   findings.throw_if_any();
-  std::stable_sort(rows.begin(), rows.end(), [](const KittiRow& a, const KittiRow& b) {
-    return a.box.frame < b.box.frame;
-  });
-  if (kind == MotKind::kDetections) return rows;
+  std::ranges::stable_sort(rows, {}, [](const KittiRow& row) { return row.box.frame; });
+  std::ranges::stable_sort(unlabelled, {}, &MotRow::frame);
+  if (kind == MotKind::kDetections) return labels;
   std::vector<std::pair<std::int32_t, std::int64_t>> seen;
   for (const KittiRow& row : rows) seen.emplace_back(row.box.frame, row.box.id);
   std::sort(seen.begin(), seen.end());
@@ -119,7 +129,7 @@ std::vector<KittiRow> read_kitti_file(const std::filesystem::path& path, MotKind
                                 twice->first - 1));
   }
   findings.throw_if_any();
-  return rows;
+  return labels;
 }
 
 void append_kitti_row(std::string& text, const KittiRow& row) {

@@ -12,7 +12,15 @@ namespace ghtrack {
 /// counts images from 1 and has its first pixel at 1 here as MOTChallenge does, and what it shows.
 struct KittiRow {
   MotRow box;
-  std::string type;  // "Car", "Pedestrian", …
+  std::string type;    // "Car", "Pedestrian", …
+  int truncated = -1;  // 0: no, 1: partly, 2: largely outside of the image; −1: unknown
+  int occluded = -1;   // 0: visible, 1: partly, 2: largely occluded; 3, −1: unknown
+};
+
+/// A file of labels, by frame.
+struct KittiFile {
+  std::vector<KittiRow> rows;
+  std::vector<MotRow> unlabelled;  // regions of the truth in which nothing is labelled: `DontCare`
 };
 
 /// Whether a file holds such labels: its first line has 17 or 18 fields between blanks, the third
@@ -20,10 +28,9 @@ struct KittiRow {
 bool looks_like_kitti_file(const std::filesystem::path& path);
 
 /// Reads rows `frame id type truncated occluded alpha left top right bottom h w l x y z ry [score]`
-/// in any order of frames; images count from 0 and pixels too. Regions that are not labelled,
-/// `DontCare`, are left out. Rows come back by frame.
+/// in any order of frames; images count from 0 and pixels too.
 /// @throws InputError naming file, line, what was found and what is allowed
-std::vector<KittiRow> read_kitti_file(const std::filesystem::path& path, MotKind kind);
+KittiFile read_kitti_file(const std::filesystem::path& path, MotKind kind);
 
 /// Appends a row; what a box does not tell has the values that KITTI gives to the unknown.
 void append_kitti_row(std::string& text, const KittiRow& row);

@@ -108,7 +108,7 @@ std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kin
                                   std::optional<std::int32_t> last_frame) {
   if (looks_like_kitti_file(path)) {
     std::vector<MotRow> boxes;
-    for (const KittiRow& row : read_kitti_file(path, kind)) boxes.push_back(row.box);
+    for (const KittiRow& row : read_kitti_file(path, kind).rows) boxes.push_back(row.box);
     return boxes;
   }
   const std::string text = read_text_file(path);

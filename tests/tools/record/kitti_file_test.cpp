@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 constexpr const char* kLabels =
     "1 7 Car 0 0 -1.5 10.5 20 110.5 70 1.5 1.6 3.9 2 1.5 20 -1.6\n"
     "0 -1 DontCare -1 -1 -10 5 5 9 9 -1 -1 -1 -1000 -1000 -1000 -10\n"
-    "0 7 Car 0 0 -1.5 10 20 110 70 1.5 1.6 3.9 2 1.5 20 -1.6 0.75\n";
+    "0 7 Car 0 2 -1.5 10 20 110 70 1.5 1.6 3.9 2 1.5 20 -1.6 0.75\n";
 
 // Derived: images and pixels that count from 0 there count from 1 here; what is not labelled is no
 // object.
@@ -23,24 +23,28 @@ TEST(KittiFile, ReadsLabels) {
   const auto path = folder.write("0000.txt", kLabels);
   EXPECT_TRUE(looks_like_kitti_file(path));
   EXPECT_TRUE(looks_like_mot_file(path));
-  const auto rows = read_kitti_file(path, MotKind::kTruth);
+  const auto [rows, unlabelled] = read_kitti_file(path, MotKind::kTruth);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].type, "Car");
   EXPECT_EQ(rows[0].box.frame, 1);
   EXPECT_EQ(rows[0].box.left, 11.0);
   EXPECT_EQ(rows[0].box.width, 100.0);
   EXPECT_EQ(rows[0].box.confidence, 0.75);
+  EXPECT_EQ(rows[0].truncated, 0);
+  EXPECT_EQ(rows[0].occluded, 2);
   EXPECT_EQ(rows[1].box.frame, 2);
+  ASSERT_EQ(unlabelled.size(), 1U);
+  EXPECT_EQ(unlabelled[0].left, 6.0);
   EXPECT_EQ(read_mot_file(path, MotKind::kTruth).size(), 2U);
 }
 
 // Property: what is written reads back.
 TEST(KittiFile, WritesWhatItReads) {
   const ScratchFolder folder;
-  const auto rows = read_kitti_file(folder.write("a.txt", kLabels), MotKind::kResult);
+  const auto rows = read_kitti_file(folder.write("a.txt", kLabels), MotKind::kResult).rows;
   std::string text;
   for (const KittiRow& row : rows) append_kitti_row(text, row);
-  const auto again = read_kitti_file(folder.write("b.txt", text), MotKind::kResult);
+  const auto again = read_kitti_file(folder.write("b.txt", text), MotKind::kResult).rows;
   ASSERT_EQ(again.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(again[i].box.left, rows[i].box.left);
