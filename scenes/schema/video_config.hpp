@@ -78,7 +78,7 @@ struct VideoConfig {
   double from = 0.0;                   // scene time of the first frame [s]
   std::optional<double> to;            // scene time of the last frame; absent: the scene's end [s]
   std::vector<VideoLayer> show{kDefaultVideoLayers.begin(), kDefaultVideoLayers.end()};
-  double trail = 3.0;  // how far back paths, marks and trails reach [s]
+  std::optional<double> trail;  // how far back paths, marks and trails reach [s]
   VideoTheme theme = VideoTheme::kDark;
   double text = 1.0;  // how much larger letters are than usual
   std::vector<Vec2> region;  // lower left and upper right corner; empty: all that happens [m]
@@ -111,7 +111,8 @@ struct VideoConfig {
     v.field("trail", &VideoConfig::trail,
             {.unit = "s",
              .meaning = "how far back true paths, detections and tracks are shown; from the length "
-                        "of the scene on they stay and do not fade",
+                        "of the scene on they stay and do not fade; without it an eighth of the "
+                        "scene, and 3 s of the video at least",
              .minimum = 0.0,
              .maximum = 1e6});
     v.field("theme", &VideoConfig::theme, {.meaning = "colours: light is for paper"});

@@ -27,7 +27,7 @@ struct SceneOptions {
 struct VideoLook {
   std::string size;   // WxH; empty: what the scene says
   std::string theme;  // dark or light; empty: dark
-  std::string trail;  // [s], or "whole"; empty: 3 s
+  std::string trail;  // [s], or "whole"; empty: as the scene says
   std::optional<double> text;  // how much larger letters are than usual
   std::vector<std::string> show, hide;
 };

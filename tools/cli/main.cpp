@@ -167,7 +167,7 @@ void add_look(CLI::App& command, VideoLook& look) {
                      "dark, or light for paper (default: what the scene says, else dark)");
   command.add_option("--trail", look.trail,
                      "how far back true paths, detections and tracks are shown [s], or whole "
-                     "(default: what the scene says, else 3)");
+                     "(default: what the scene says, else an eighth of it)");
   add_number(command, "--text", look.text, {.least = 0.5, .most = 3.0},
              "how much larger letters are than usual, such as 1.5 for a large room (default: what "
              "the scene says, else 1)");

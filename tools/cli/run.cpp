@@ -154,7 +154,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   scores.commit();
   files.commit();
   if (scene.record.events) write_events(folder / "events.csv", truth.events(), objects);
-  if (history) write_smoothed_tracks(folder / "tracks.csv", history->history(), columns);
+  if (history) write_smoothed_tracks(folder / "tracks.csv", history->history().smoothed(), columns);
   if (matches) matches->commit();
   if (options.plots) write_plots(folder, scoring, scene.name);
   results.commit();

@@ -5,8 +5,8 @@
 
 namespace ghtrack::cli {
 
-void write_smoothed_tracks(const std::filesystem::path& path, const TrackHistory& history,
-                           TrackColumns more) {
+void write_smoothed_tracks(const std::filesystem::path& path,
+                           std::span<const SmoothedSnapshot> history, TrackColumns more) {
   const Smoothed* next = nullptr;  // of the row that is written
   TrackColumns columns = more;
   columns.names.insert(columns.names.end(),
@@ -20,7 +20,7 @@ void write_smoothed_tracks(const std::filesystem::path& path, const TrackHistory
         << std::sqrt(covariance(1, 1));
   };
   TrackWriter writer(path, std::move(columns));
-  for (const SmoothedSnapshot& now : history.smoothed()) {
+  for (const SmoothedSnapshot& now : history) {
     next = now.smoothed.data();
     writer.add(now.tracks);
   }

@@ -324,10 +324,14 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
       TrackHistory history(design_of(config, scans));
       track_all([&](const TrackSnapshot& now) {
         history.add(now, now.time == latest.time ? latest : Scan{});
-        if (filmed) film.add(now);
       });
-      times.of(StageTimes::kWrite,
-               [&] { write_smoothed_tracks(file, history, std::move(columns)); });
+      times.of(StageTimes::kWrite, [&] {
+        const std::vector<SmoothedSnapshot> smoothed = history.smoothed();
+        write_smoothed_tracks(file, smoothed, std::move(columns));
+        for (const SmoothedSnapshot& now : smoothed) {
+          if (filmed) film.add(now);
+        }
+      });
     } else {
       TrackWriter writer(file, std::move(columns));
       track_all([&](const TrackSnapshot& now) {

@@ -84,6 +84,16 @@ void TrackFilm::add(const TrackSnapshot& tracks) {
   tracks_.push_back(std::move(moment));
 }
 
+void TrackFilm::add(const SmoothedSnapshot& tracks) {
+  TrackSnapshot now = tracks.tracks;
+  for (std::size_t i = 0; i < now.tracks.size(); ++i) {
+    now.tracks[i].position = tracks.smoothed[i].state.position;
+    now.tracks[i].velocity = tracks.smoothed[i].state.velocity;
+    now.tracks[i].residual.reset();  // of a prediction that nobody makes
+  }
+  add(now);
+}
+
 void TrackFilm::add(const Scan& scan) {
   if (seen_.empty() || seen_.back().time != scan.time) seen_.push_back({scan.time, {}});
   for (const Detection& detection : scan.detections) {

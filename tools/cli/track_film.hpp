@@ -12,6 +12,7 @@
 #include "tools/data/place.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/render/footage.hpp"
+#include "tools/run/track_history.hpp"
 #include "tracker/track.hpp"
 
 namespace ghtrack::cli {
@@ -21,6 +22,7 @@ class TrackFilm {
  public:
   /// Of points [m, or pixels].
   void add(const TrackSnapshot& tracks);
+  void add(const SmoothedSnapshot& tracks);  // where they were as is known afterwards
   void add(const Scan& scan);
 
   /// Of boxes [pixels], whose times count images of this rate.

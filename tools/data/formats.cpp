@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
 #include "tools/data/clock.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/record/text_file.hpp"
+#include "tools/record/text_input.hpp"
 
 namespace ghtrack {
 namespace {
@@ -113,12 +116,53 @@ std::string geojson_as_csv(const std::string& path) {
   }
 }
 
+/// Whether a file's first line is a message of BaseStation: `MSG,3,1,1,4CA2D6,…`.
+bool is_base_station_file(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4> start{};
+  file.read(start.data(), start.size());
+  const std::string_view read(start.data(), static_cast<std::size_t>(file.gcount()));
+  return read == "MSG," || read == "SEL," || read == "AIR," || read == "STA,";
+}
+
+/// Messages of BaseStation (SBS-1), 22 fields between commas: those that have a position, when they
+/// were made, and the address of the aircraft.
+std::string base_station_as_csv(const std::string& path) {
+  constexpr std::size_t kFields = 22, kAddress = 4, kDate = 6, kTime = 7, kLatitude = 14,
+                        kLongitude = 15;
+  TextInput lines(path);
+  Findings findings(path);
+  std::string csv(kHeader);
+  std::vector<std::string_view> fields;
+  std::vector<std::string> owned;
+  for (auto line = lines.next(); line && !findings.enough(); line = lines.next()) {
+    if (!line->starts_with("MSG,")) continue;
+    split_fields(*line, fields, owned);
+    if (fields.size() != kFields) {
+      findings.add(lines.line_number(), fmt::format("{} fields; a message of BaseStation has {}",
+                                                    fields.size(), kFields));
+      continue;
+    }
+    if (fields[kLatitude].empty() || fields[kLongitude].empty()) continue;
+    csv += fmt::format("{} {},{},{},{}\n", fields[kDate], fields[kTime], fields[kLatitude],
+                       fields[kLongitude], fields[kAddress]);
+  }
+  findings.throw_if_any();
+  if (csv.size() == kHeader.size()) {
+    throw InputError(path + ": error: none of the messages of BaseStation has a position");
+  }
+  return csv;
+}
+
 }  // namespace
 
 std::optional<std::string> points_as_csv(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".gpx") return gpx_as_csv(path);
   if (ending == ".geojson" || ending == ".json") return geojson_as_csv(path);
+  if (is_base_station_file(path)) return base_station_as_csv(path);
   return std::nullopt;
 }
 

@@ -9,10 +9,11 @@
 
 namespace ghtrack {
 
-/// Files of points that are no tables: GPX 1.1 tracks (.gpx) and GeoJSON (.geojson, .json).
+/// Files of points that are no tables: GPX 1.1 tracks (.gpx), GeoJSON (.geojson, .json), and what a
+/// receiver of ADS-B writes in the format of BaseStation, known by its first line.
 ///
-/// @return the same as CSV with the columns time, lat, lon and track_id; absent if the name says
-/// that the file is a table
+/// @return the same as CSV with the columns time, lat, lon and track_id; absent if the file is a
+/// table
 /// @throws InputError
 std::optional<std::string> points_as_csv(const std::string& path);
 

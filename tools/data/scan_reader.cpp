@@ -34,12 +34,17 @@ struct ScanReader::State {
         sensor(table.columns().find(Role::kSensor)),
         label(table.columns().find(Role::kClass)),
         rows([this](DetectionRow& row) { return read(row); },
-             table.can_rewind() ? std::function<void()>([this] { table.rewind(); })
+             table.can_rewind() ? std::function<void()>([this] { rewind(); })
                                 : std::function<void()>()),
         instants(rows) {}
 
   bool read(DetectionRow& row) {
     while (table.next()) {
+      if (table.text() == row_before) {
+        ++repeated;
+        continue;
+      }
+      row_before = table.text();
       const auto fix = fixes.read(table);
       if (!fix) continue;
       row.time = fix->time;
@@ -53,6 +58,11 @@ struct ScanReader::State {
                                    table.line()));
     }
     return false;
+  }
+
+  void rewind() {
+    table.rewind();
+    row_before.clear();
   }
 
   void survey() {
@@ -69,6 +79,7 @@ struct ScanReader::State {
     table.throw_findings();
     summary.left_out = table.rows_left_out();
     summary.remarks = table.remarks();
+    summary.repeated = repeated;
     rows.settle();
     summary.in_order = rows.in_order();
     summary.has_sigma = fixes.has_sigma();
@@ -102,6 +113,11 @@ struct ScanReader::State {
     if (summary.missed > 0) {
       text += fmt::format("; {} without a position", counted(summary.missed, "row", "rows"));
     }
+    if (summary.repeated > 0) {
+      const bool one = summary.repeated == 1;
+      text += fmt::format("; {} row{} the one before and {} left out", summary.repeated,
+                          one ? " repeats" : "s repeat", one ? "is" : "are");
+    }
     if (!summary.in_order) text += "; sorted by time";
     return text;
   }
@@ -129,6 +145,8 @@ struct ScanReader::State {
   Instants<DetectionRow> instants;
   std::vector<DetectionRow> now;  // of the present instant, by sensor
   std::size_t at = 0;             // in `now`
+  std::string row_before;
+  std::int64_t repeated = 0;
   DataSummary summary;
 };
 

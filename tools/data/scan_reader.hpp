@@ -20,6 +20,7 @@ struct DataSummary {
   std::int64_t instants = 0;  // different times
   std::int64_t missed = 0;    // rows without a position
   std::int64_t left_out = 0;  // bad rows
+  std::int64_t repeated = 0;  // rows that a logger wrote twice, to the letter
   double first_time = 0.0, last_time = 0.0;  // [s]
   double period = 0.0;        // median time between instants [s]; 0 if there are no two
   bool in_order = true;       // of time, in the file
@@ -33,7 +34,8 @@ struct DataSummary {
 /// Reads detections scan by scan, in the order of time. The columns are t, x and y or their aliases
 /// and, where they are there, sensor, class and sigma. Rows with the same time and sensor make a
 /// scan. A row without a position is a scan that saw nothing. Where a row says its error, it is in
-/// the detection's covariance, which is otherwise zero: unknown.
+/// the detection's covariance, which is otherwise zero: unknown. A row that repeats the one before
+/// to the letter is passed over.
 ///
 /// A file in the order of time is read in constant memory, whatever its size.
 class ScanReader {

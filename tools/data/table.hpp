@@ -9,8 +9,8 @@
 
 #include "tools/data/dialect.hpp"
 #include "tools/data/header.hpp"
-#include "tools/data/text_input.hpp"
 #include "tools/record/text_file.hpp"
+#include "tools/record/text_input.hpp"
 
 namespace ghtrack {
 
@@ -58,6 +58,7 @@ class Table {
   bool next();
 
   std::int64_t line() const { return line_number_; }
+  std::string_view text() const { return line_; }  // of the row
   std::string_view cell(std::size_t column) const { return cells_[column]; }
 
   /// The finite number in a cell; absent if it is anything else.

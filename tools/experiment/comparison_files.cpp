@@ -181,7 +181,8 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
   std::vector<TextColumn> columns = {{"scene", 44, false}, {"regime", 12, false}};
   for (std::size_t i = 0; i < comparison.filters.size(); ++i) {
     columns.push_back({printable(comparison.filters[i], 20), 20, true});
-    if (loses(i)) columns.push_back({"lost %", 6, true});
+    if (!loses(i)) continue;
+    columns.push_back({.title = "lost %", .most = 6, .right_aligned = true, .continues = true});
   }
   std::vector<Reference> references;  // that are known of any line
   for (const Reference& reference : kReferences) {

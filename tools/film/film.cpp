@@ -76,8 +76,9 @@ std::vector<render::SmoothedPaths> smoothed_paths(const WorldScene& scene, Truth
 }
 
 render::VideoWriter writer_of(const WorldScene& scene, render::VideoOptions options,
-                              const render::SceneDrawing& drawing) {
-  magnify_small_errors(scene, drawing, options);
+                              const render::SceneDrawing& drawing, TruthSource& truth,
+                              const std::function<void()>& on_step) {
+  magnify_small_errors(scene, drawing, truth, on_step, options);
   return {options, drawing};
 }
 
@@ -91,7 +92,8 @@ Film::Film(const WorldScene& scene, std::function<World()> make_world,
                     render::frame_times(options, scene.duration))),
       world_(make_world()),
       truth_(truth_of(scene, std::move(make_world), times_, on_step)),
-      writer_(writer_of(scene, options, drawing(scene, options, contenders, shown, on_step))),
+      writer_(writer_of(scene, options, drawing(scene, options, contenders, shown, on_step),
+                        *truth_, on_step)),
       frames_(scene, world_.objects(), shown,
               [this](const render::VideoFrame& frame) { show(frame); }) {
   truth_->restart();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "sensors/view_geometry.hpp"
 #include "sim/regimes/rail_line.hpp"
 #include "sim/regimes/train.hpp"
+#include "tools/render/view.hpp"
 
 namespace ghtrack::film {
 namespace {
@@ -59,6 +61,36 @@ std::optional<ObjectId> object_named(const std::vector<ObjectInfo>& objects,
   return std::nullopt;
 }
 
+/// How far back a picture looks: far enough that a path is seen in a long scene [s].
+double usual_trail(double duration, double slow) {
+  constexpr double kLeast = 3.0;  // [s] of the video
+  constexpr double kShare = 0.125;
+  return std::max(kLeast, kShare * duration * std::min(1.0, slow));
+}
+
+/// The corner in which close-ups hide the least of what happens.
+VideoCorner free_corner(const render::View& view, const std::vector<Vec2>& places,
+                        std::size_t close_ups) {
+  constexpr double kWidth = 0.3, kHeight = 0.4;  // of the picture, about, for each
+  const render::Viewport& picture = view.viewport();
+  const double height = kHeight * static_cast<double>(close_ups) * picture.height;
+  constexpr std::array kCorners{VideoCorner::kTopRight, VideoCorner::kTopLeft,
+                                VideoCorner::kBottomLeft, VideoCorner::kBottomRight};
+  std::array<int, kCorners.size()> hidden{};
+  for (const Vec2& place : places) {
+    const render::Pixel at = view.to_pixel(place);
+    const bool is_left = at.x < kWidth * picture.width;
+    const bool is_right = at.x > (1.0 - kWidth) * picture.width;
+    const bool is_top = at.y < height, is_bottom = at.y > picture.height - height;
+    hidden[0] += is_right && is_top;
+    hidden[1] += is_left && is_top;
+    hidden[2] += is_left && is_bottom;
+    hidden[3] += is_right && is_bottom;
+  }
+  return kCorners[static_cast<std::size_t>(
+      std::min_element(hidden.begin(), hidden.end()) - hidden.begin())];
+}
+
 }  // namespace
 
 render::VideoOptions video_options(const WorldScene& scene, const std::vector<ObjectInfo>& objects,
@@ -73,7 +105,7 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
   options.from = config.from;
   options.to = config.to;
   options.layers = render::Layers(config.show);
-  options.trail = config.trail;
+  options.trail = config.trail.value_or(usual_trail(scene.duration, config.slow));
   options.theme = config.theme;
   options.text = config.text;
   if (const auto target = object_named(objects, config.follow)) {
@@ -92,8 +124,9 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
 }
 
 void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,
+                          TruthSource& truth, const std::function<void()>& on_step,
                           render::VideoOptions& options) {
-  constexpr double kLeastVisible = 1.2;  // [px] that 1 sigma of a detection should have
+  constexpr double kLeastVisible = 2.5;  // [px] that 1 sigma of a detection should have
   constexpr double kWidthInSigmas = 40.0;
   constexpr double kWidthInLengths = 2.5;
   constexpr std::size_t kMost = 2;
@@ -107,11 +140,17 @@ void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& d
   for (const SensorTraits& sensor : traits_of(scene.sensors)) sigma = std::max(sigma, sensor.sigma);
   if (!(sigma * scale < kLeastVisible)) return;
   for (const ObjectInfo& object : drawing.objects) {
-    if (options.close_ups.size() == kMost) return;
+    if (options.close_ups.size() == kMost) break;
     const double width = std::max(kWidthInSigmas * sigma, kWidthInLengths * object.outline.length);
     if (width * 4.0 > size.x()) continue;  // would show no more than the whole does
-    options.close_ups.push_back({object.id, width, VideoCorner::kTopRight});
+    options.close_ups.push_back({.target = object.id, .width = width});
   }
+  if (options.close_ups.empty()) return;
+  const render::View view(
+      world, {0.0, 0.0, static_cast<double>(options.width), static_cast<double>(options.height)});
+  const VideoCorner corner = free_corner(view, places_visited(truth, scene.duration, on_step),
+                                         options.close_ups.size());
+  for (render::CloseUp& close_up : options.close_ups) close_up.corner = corner;
 }
 
 render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, TruthSource& truth,

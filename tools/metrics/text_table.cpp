@@ -45,6 +45,13 @@ void shorten_names(Cells& cells, std::size_t columns, std::size_t most) {
   }
 }
 
+/// One past the last of the columns that stay together from `first` on.
+std::size_t end_of_group(const std::vector<TextColumn>& columns, std::size_t first) {
+  std::size_t end = first + 1;
+  while (end < columns.size() && columns[end].continues) ++end;
+  return end;
+}
+
 /// Some of the columns as lines.
 void append_block(std::string& text, const Cells& cells, const std::vector<TextColumn>& columns,
                   const std::vector<std::size_t>& widths, const std::vector<std::size_t>& shown) {
@@ -101,11 +108,14 @@ std::string text_table(const std::vector<TextColumn>& columns,
     std::iota(shown.begin(), shown.end(), std::size_t{0});
     std::size_t used = 0;
     for (const std::size_t i : shown) used += widths[i] + kGap.size();
-    do {
-      if (next == columns.size()) break;
-      shown.push_back(next);
-      used += widths[next++] + kGap.size();
-    } while (next < columns.size() && used + widths[next] <= fit.width);
+    while (next < columns.size()) {
+      const std::size_t end = end_of_group(columns, next);
+      std::size_t with_group = used;
+      for (std::size_t i = next; i < end; ++i) with_group += widths[i] + kGap.size();
+      if (shown.size() > repeated && with_group - kGap.size() > fit.width) break;
+      for (; next < end; ++next) shown.push_back(next);
+      used = with_group;
+    }
     if (!text.empty()) text += '\n';
     append_block(text, cells, columns, widths, shown);
   }

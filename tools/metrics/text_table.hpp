@@ -11,6 +11,7 @@ struct TextColumn {
   std::string title;
   std::size_t most = 0;        // characters; longer cells are cut and end in "…"
   bool right_aligned = false;  // numbers
+  bool continues = false;      // says more of the column before, and stays beside it
 };
 
 /// The text in at most `most` characters, safe for a terminal: control characters, direction

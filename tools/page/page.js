@@ -6,6 +6,7 @@
   const recorded = byId("lab-recorded").textContent;
   const { objects } = JSON.parse(recorded);
   const truthBytes = lab.bytesOf("lab-truth");
+  const gap = 2.5 / Math.min(...scene.sensors.map((sensor) => sensor.rate));  // [s] in which a curve breaks
 
   let engine;
   try {
@@ -23,7 +24,7 @@
     scene, objects, duration: scene.duration, scenery: scene.scenery,
     truth: new lab.Truth(truthBytes, objects.length),
     camera: new lab.Camera(scene.scenery.world), colours: new lab.Palette(),
-    time: 0, trail: Math.min(3, scene.duration), speed: 1, isPlaying: false,
+    time: 0, trail: 3, speed: 1, isPlaying: false,
     selected: -1, selectedTrack: [null, null], result: null,
     shows: (layer) => layers[layer],
     get sensors() { return controls.sensors; },
@@ -61,7 +62,7 @@
       if (!answer.errors.has(object)) answer.errors.set(object, []);
       const errors = answer.errors.get(object);
       if (errors.length > 0 && errors.at(-1)[0] === time) continue;
-      if (errors.length > 0 && time - errors.at(-1)[0] > 0.5) errors.push([time, NaN]);
+      if (errors.length > 0 && time - errors.at(-1)[0] > gap) errors.push([time, NaN]);
       errors.push([time, Math.hypot(tracks.get(row, "x") - path.x[i], tracks.get(row, "y") - path.y[i])]);
     }
   }
@@ -82,6 +83,7 @@
     state.result.answers.forEach(index);
     choose();
     lab.computingTime = performance.now() - start;
+    byId("lab-existence").parentElement.hidden = !lab.existenceCurves(state).some(({ points }) => points.some(([, real]) => !Number.isNaN(real)));
     for (const plot of plots) plot.refresh();
     clearTimeout(scoresAreDue);
     scoresAreDue = setTimeout(score, 180);
@@ -188,7 +190,7 @@
       `${sideNames()[which] ? sideNames()[which] + ": " : ""}RMSE ${lab.short(value(total, ["rmse"]))} m, ` +
       `GOSPA ${lab.short(total.gospa)} m, ` +
       `MOTA ${lab.short(value(total, ["mota"]))}, IDF1 ${lab.short(value(total, ["idf1"]))}, ` +
-      `${total.id_switches ?? 0} switches of identity`).join(" · ");
+      `${total.id_switches ?? 0} ${total.id_switches === 1 ? "switch" : "switches"} of identity`).join(" · ");
     showHistory();
   }
 
@@ -242,7 +244,7 @@
     const rows = answer?.paths.get(state.selectedTrack[which]);
     section.hidden = !rows;
     byId("lab-error-caption").textContent = state.selected >= 0 ? `Error of ${objects[state.selected].name} [m]` : "Error of every target [m]";
-    byId("lab-residual-caption").textContent = rows ? "Residual in x and y (dotted), and where 95 % should lie [m]" : "Residual [m]: click a track or a target";
+    byId("lab-residual-caption").textContent = rows ? "Residual in x and y (dotted), and where 95 % should lie [m]" : "Size of every track's residual [m]";
     if (!rows) return;
     const { tracks, scans } = answer;
     const get = (row, field) => tracks.get(row, field);
@@ -375,7 +377,10 @@
     }
     redraw();
   });
-  byId("lab-trail").value = "3";
+  // As in a video: an eighth of the scene.
+  byId("lab-trail").value = [...byId("lab-trail").options].map((option) => option.value)
+    .find((value) => Number(value) >= Math.max(3, scene.duration / 8));
+  state.trail = Math.min(Number(byId("lab-trail").value), 1e9);
   on("lab-trail", "change", (event) => { state.trail = Math.min(Number(event.target.value), 1e9); redraw(); });
   for (const name of Object.keys(layers)) {
     const label = document.createElement("label"), box = document.createElement("input");

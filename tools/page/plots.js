@@ -139,8 +139,21 @@ lab.trackCurve = (state, which, value, dash) => {
   return { colour, dash, points };
 };
 
-lab.residualCurves = (state) => ["rx", "ry"].flatMap((field, axis) =>
-  [lab.trackCurve(state, 0, (get) => get(field), axis === 1 ? [2, 3] : [])].filter(Boolean));
+/** Of every track, or of the selected ones, a value over time. */
+lab.curvesOfTracks = (state, value) => state.result.answers.flatMap((answer, which) =>
+  [...answer.paths].filter(([id]) => state.selected < 0 || id === state.selectedTrack[which])
+    .map(([id, rows]) => ({
+      colour: state.colours.of(answer.tracks.get(rows.at(-1), "object")),
+      dash: which === 1 ? [5, 4] : [],
+      points: rows.map((row) => [answer.scans.get(answer.tracks.get(row, "scan"), "time"),
+        value((field) => answer.tracks.get(row, field))]),
+    })));
+
+/** Of the selected track both coordinates, else of every track the size. */
+lab.residualCurves = (state) => state.selected >= 0 || state.selectedTrack[0] !== null
+  ? ["rx", "ry"].flatMap((field, axis) =>
+    [lab.trackCurve(state, 0, (get) => get(field), axis === 1 ? [2, 3] : [])].filter(Boolean))
+  : lab.curvesOfTracks(state, (get) => Math.hypot(get("rx"), get("ry")));
 
 /** Where 95 % of the residuals are to be expected. */
 lab.residualBand = (state) => {
@@ -148,11 +161,4 @@ lab.residualBand = (state) => {
   return curve ? [{ colour: curve.colour, points: curve.points.map(([t, half]) => [t, -half, half]) }] : [];
 };
 
-lab.existenceCurves = (state) => state.result.answers.flatMap((answer, which) =>
-  [...answer.paths].filter(([id]) => state.selected < 0 || id === state.selectedTrack[which])
-    .map(([id, rows]) => ({
-      colour: state.colours.of(answer.tracks.get(rows.at(-1), "object")),
-      dash: which === 1 ? [5, 4] : [],
-      points: rows.map((row) => [answer.scans.get(answer.tracks.get(row, "scan"), "time"),
-        answer.tracks.get(row, "existence")]),
-    })));
+lab.existenceCurves = (state) => lab.curvesOfTracks(state, (get) => get("existence"));

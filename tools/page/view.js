@@ -108,6 +108,7 @@ lab.WorldView = class {
     pen.fillRect(0, 0, this.width, this.height);
     if (state.shows("grid")) this.drawGrid();
     this.drawScenery();
+    if (state.shows("grid")) this.drawNumbers();
     if (state.shows("sensors")) this.drawSensors();
     if (state.shows("truth")) this.drawTruthPaths();
     this.drawDetections();
@@ -125,25 +126,33 @@ lab.WorldView = class {
     if (close) pen.closePath();
   }
 
+  /** Where lines of the grid are: values, and pixels beside them. */
+  grid() {
+    const [left, top] = this.toWorld(0, 0), [right, bottom] = this.toWorld(this.width, this.height);
+    return [lab.ticks(left, right, Math.max(2, this.width / 110)).map((x) => [x, Math.round(this.x(x)) + 0.5]),
+      lab.ticks(bottom, top, Math.max(2, this.height / 70)).map((y) => [y, Math.round(this.y(y)) + 0.5])];
+  }
+
   drawGrid() {
     const { pen, state: { colours } } = this;
-    const [left, top] = this.toWorld(0, 0), [right, bottom] = this.toWorld(this.width, this.height);
+    const [upright, level] = this.grid();
     pen.strokeStyle = colours.grid;
-    pen.fillStyle = colours.muted;
     pen.lineWidth = 1;
+    pen.beginPath();
+    for (const [, at] of upright) { pen.moveTo(at, 0); pen.lineTo(at, this.height); }
+    for (const [, at] of level) { pen.moveTo(0, at); pen.lineTo(this.width, at); }
+    pen.stroke();
+  }
+
+  drawNumbers() {
+    const { pen, state: { colours } } = this;
+    const [upright, level] = this.grid();
+    pen.fillStyle = colours.muted;
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
-    for (const x of lab.ticks(left, right, Math.max(2, this.width / 110))) {
-      const at = Math.round(this.x(x)) + 0.5;
-      pen.beginPath(); pen.moveTo(at, 0); pen.lineTo(at, this.height); pen.stroke();
-      if (at > 40 && at < this.width - 40) pen.fillText(lab.short(x), at, this.height - 5);
-    }
+    for (const [x, at] of upright) if (at > 40 && at < this.width - 40) pen.fillText(lab.short(x), at, this.height - 5);
     pen.textAlign = "left";
-    for (const y of lab.ticks(bottom, top, Math.max(2, this.height / 70))) {
-      const at = Math.round(this.y(y)) + 0.5;
-      pen.beginPath(); pen.moveTo(0, at); pen.lineTo(this.width, at); pen.stroke();
-      if (at > 16 && at < this.height - 20) pen.fillText(lab.short(y), 4, at - 3);
-    }
+    for (const [y, at] of level) if (at > 16 && at < this.height - 20) pen.fillText(lab.short(y), 4, at - 3);
   }
 
   /** "m" and a bar to measure with. */

@@ -12,6 +12,7 @@
 
 #include "tools/record/kitti_file.hpp"
 #include "tools/record/text_file.hpp"
+#include "tools/record/text_input.hpp"
 
 namespace ghtrack {
 namespace {
@@ -111,9 +112,8 @@ std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kin
     for (const KittiRow& row : read_kitti_file(path, kind).rows) boxes.push_back(row.box);
     return boxes;
   }
-  const std::string text = read_text_file(path);
+  TextInput lines(path.string());
   Findings findings(path.string());
-  Lines lines(text);
   std::vector<NumberedRow> rows;
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;
@@ -122,8 +122,8 @@ std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kin
     if (line->find_first_not_of(" \t") == std::string_view::npos) continue;
     split_fields(*line, fields, owned);
     if (std::exchange(is_first, false) && is_header(fields)) continue;
-    const auto row = parse_row(fields, kind, last_frame, lines.number(), findings);
-    if (row) rows.push_back({*row, lines.number()});
+    const auto row = parse_row(fields, kind, last_frame, lines.line_number(), findings);
+    if (row) rows.push_back({*row, lines.line_number()});
   }
   findings.throw_if_any();
   std::stable_sort(rows.begin(), rows.end(), [](const NumberedRow& a, const NumberedRow& b) {

@@ -70,21 +70,30 @@ class Backdrop {
     }
   }
 
-  /// Where sensors stand, and whose field of view is whose.
-  void names_of_sensors() {
+  /// Where sensors stand.
+  void sites_of_sensors() {
+    const int letters = style_.letters(13);
+    const double bottom = view_.viewport().bottom();
+    for (const SensorDrawing& sensor : scene_.sensors) {
+      if (!sensor.site || !is_inside(view_.to_pixel(*sensor.site))) continue;
+      const Pixel m = view_.to_pixel(*sensor.site);
+      const double r = style_.length(7);
+      canvas_.polygon({{m.x, m.y - r}, {m.x + r, m.y + r}, {m.x - r, m.y + r}},
+                      theme_.field_of_view);
+      const double below = m.y + r + 1.3 * letters;
+      canvas_.rimmed_text(fonts_.bold, drawable(sensor.name, 24), letters,
+                          {m.x, below < bottom - 2.0 * letters ? below : m.y - r - 0.4 * letters},
+                          theme_.muted_text, theme_.world, Canvas::Align::kCentre);
+    }
+  }
+
+  /// Whose field of view is whose.
+  void names_of_views() {
     const int letters = style_.letters(13);
     const Viewport& area = view_.viewport();
     double row = 0.0;
     for (const SensorDrawing& sensor : scene_.sensors) {
       const std::u32string name = drawable(sensor.name, 24);
-      if (sensor.site && is_inside(view_.to_pixel(*sensor.site))) {
-        const Pixel m = view_.to_pixel(*sensor.site);
-        const double r = style_.length(7);
-        canvas_.polygon({{m.x, m.y - r}, {m.x + r, m.y + r}, {m.x - r, m.y + r}},
-                        theme_.field_of_view);
-        canvas_.rimmed_text(fonts_.bold, name, letters, {m.x, m.y + r + 1.3 * letters},
-                            theme_.muted_text, theme_.world, Canvas::Align::kCentre);
-      }
       if (sensor.field_of_view.size() < 3) continue;
       // At the left end of its upper edge, as far as that is in the picture; several in rows.
       Pixel corner = view_.to_pixel(sensor.field_of_view.front());
@@ -249,7 +258,10 @@ void draw_backdrop(Canvas& canvas, const Stage& stage, AxisNumbers numbers) {
   if (stage.shows(Layer::kGround)) backdrop.edge_of_the_ground();
   if (stage.shows(Layer::kWalls)) backdrop.edges_of_walls();
   if (stage.shows(Layer::kRails)) backdrop.rails();
-  if (stage.shows(Layer::kFieldOfView)) backdrop.names_of_sensors();
+  if (stage.shows(Layer::kFieldOfView)) {
+    backdrop.sites_of_sensors();
+    if (numbers == AxisNumbers::kShown) backdrop.names_of_views();
+  }
   if (!stage.shows(Layer::kGrid)) return;
   if (numbers == AxisNumbers::kShown) backdrop.numbers();
   backdrop.scale_bar();

@@ -24,22 +24,37 @@ void Coverage::clear(Pixel min, Pixel max) {
       static_cast<std::size_t>(right_ - left_) * static_cast<std::size_t>(bottom_ - top_), 0);
 }
 
-/// @param distance of a pixel's centre beyond the edge, negative inside [px]
-template <class Distance>
-void Coverage::add(Pixel min, Pixel max, double opacity, Distance distance) {
-  const int first_row = pixel_in(std::floor(min.y) - 1.0, top_, bottom_);
-  const int last_row = pixel_in(std::ceil(max.y) + 2.0, top_, bottom_);
-  const int first = pixel_in(std::floor(min.x) - 1.0, left_, right_);
-  const int last = pixel_in(std::ceil(max.x) + 2.0, left_, right_);
+/// Where a row may be covered: from low to high, except between hole_low and hole_high.
+struct Coverage::Span {
+  double low, high;
+  double hole_low = 0.0, hole_high = 0.0;
+};
+
+/// @param span      of a row: its pixels outside have a share of nothing
+/// @param distance  of a pixel's centre beyond the edge, negative inside [px]
+template <class RowSpan, class Distance>
+void Coverage::add(double top, double bottom, double opacity, RowSpan span, Distance distance) {
+  const int first_row = pixel_in(std::floor(top), top_, bottom_);
+  const int last_row = pixel_in(std::ceil(bottom) + 1.0, top_, bottom_);
   const double full = 255.0 * std::clamp(opacity, 0.0, 1.0);
   for (int y = first_row; y < last_row; ++y) {
     std::uint8_t* shares =
         shares_.data() + static_cast<std::ptrdiff_t>(y - top_) * (right_ - left_);
-    for (int x = first; x < last; ++x) {
-      const double share = std::min(1.0, 0.5 - distance(1.0 * x, 1.0 * y));
-      if (!(share > 0.0)) continue;
-      std::uint8_t& here = shares[x - left_];
-      here = std::max(here, static_cast<std::uint8_t>(full * share + 0.5));
+    const auto cover = [&](double low, double high) {
+      const int last = pixel_in(std::ceil(high) + 1.0, left_, right_);
+      for (int x = pixel_in(std::floor(low), left_, right_); x < last; ++x) {
+        const double share = std::min(1.0, 0.5 - distance(1.0 * x, 1.0 * y));
+        if (!(share > 0.0)) continue;
+        std::uint8_t& here = shares[x - left_];
+        here = std::max(here, static_cast<std::uint8_t>(full * share + 0.5));
+      }
+    };
+    const Span row = span(1.0 * y);
+    if (row.hole_high - row.hole_low > 2.0) {
+      cover(row.low, row.hole_low);
+      cover(row.hole_high, row.high);
+    } else {
+      cover(row.low, row.high);
     }
   }
 }
@@ -47,43 +62,58 @@ void Coverage::add(Pixel min, Pixel max, double opacity, Distance distance) {
 void Coverage::add_line(Pixel from, Pixel to, double thickness, double opacity) {
   const double dx = to.x - from.x;
   const double dy = to.y - from.y;
-  const double squared = dx * dx + dy * dy;
-  const double inverse = squared > 0.0 ? 1.0 / squared : 0.0;
+  const double length = std::sqrt(dx * dx + dy * dy);
+  const double ux = length > 0.0 ? dx / length : 1.0;  // along the line
+  const double uy = length > 0.0 ? dy / length : 0.0;
   const double radius = 0.5 * thickness;
   const double reach = radius + 0.5;
-  const auto distance = [&](double x, double y) {
-    const double along = std::clamp(((x - from.x) * dx + (y - from.y) * dy) * inverse, 0.0, 1.0);
-    const double ex = x - from.x - along * dx;
-    const double ey = y - from.y - along * dy;
-    const double squared_distance = ex * ex + ey * ey;
-    if (squared_distance > reach * reach) return 1.0;  // not covered: how far does not matter
-    return std::sqrt(squared_distance) - radius;
+  const auto distance = [=](double x, double y) {
+    const double ex = x - from.x;
+    const double ey = y - from.y;
+    const double along = ex * ux + ey * uy;
+    const double across = ey * ux - ex * uy;
+    if (along >= 0.0 && along <= length) return std::abs(across) - radius;
+    const double beyond = along < 0.0 ? along : along - length;
+    return std::sqrt(across * across + beyond * beyond) - radius;
   };
-  // A long line at an angle is taken in strips, whose boxes are little larger than the line.
-  constexpr double kStrip = 6.0;
-  const double shorter = std::min(std::abs(dx), std::abs(dy));
-  const int strips = std::max(1, static_cast<int>(std::ceil(shorter / kStrip)));
-  for (int i = 0; i < strips; ++i) {
-    const double begin = static_cast<double>(i) / strips;
-    const double end = static_cast<double>(i + 1) / strips;
-    const Pixel a{from.x + begin * dx, from.y + begin * dy};
-    const Pixel b{from.x + end * dx, from.y + end * dy};
-    add({std::min(a.x, b.x) - radius, std::min(a.y, b.y) - radius},
-        {std::max(a.x, b.x) + radius, std::max(a.y, b.y) + radius}, opacity, distance);
-  }
+  // Of a row, what lies between the parallels at that distance, and not beyond the ends.
+  const double left = std::min(from.x, to.x) - reach;
+  const double right = std::max(from.x, to.x) + reach;
+  const double slope = dx / dy;
+  const double half = reach * std::sqrt(1.0 + slope * slope);
+  const bool is_level = !std::isfinite(half);
+  const auto span = [&](double y) {
+    if (is_level) return Span{left, right};
+    const double middle = from.x + (y - from.y) * slope;
+    return Span{std::max(left, middle - half), std::min(right, middle + half)};
+  };
+  add(std::min(from.y, to.y) - reach, std::max(from.y, to.y) + reach, opacity, span, distance);
 }
 
 void Coverage::add_ring(Pixel centre, double radius, double thickness, double opacity) {
-  const double reach = radius + 0.5 * thickness;
-  add({centre.x - reach, centre.y - reach}, {centre.x + reach, centre.y + reach}, opacity,
-      [&](double x, double y) {
-        return std::abs(std::hypot(x - centre.x, y - centre.y) - radius) - 0.5 * thickness;
-      });
+  const double outer = radius + 0.5 * thickness + 0.5;
+  const double inner = std::max(0.0, radius - 0.5 * thickness - 0.5);
+  const auto span = [&](double y) {
+    const double up = (y - centre.y) * (y - centre.y);
+    const double half = std::sqrt(std::max(0.0, outer * outer - up));
+    const double hole = std::sqrt(std::max(0.0, inner * inner - up));
+    return Span{centre.x - half, centre.x + half, centre.x - hole, centre.x + hole};
+  };
+  add(centre.y - outer, centre.y + outer, opacity, span, [&](double x, double y) {
+    return std::abs(std::hypot(x - centre.x, y - centre.y) - radius) - 0.5 * thickness;
+  });
 }
 
 void Coverage::add_disc(Pixel centre, double radius, double opacity) {
-  add({centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius}, opacity,
-      [&](double x, double y) { return std::hypot(x - centre.x, y - centre.y) - radius; });
+  const double reach = radius + 0.5;
+  const auto span = [&](double y) {
+    const double half =
+        std::sqrt(std::max(0.0, reach * reach - (y - centre.y) * (y - centre.y)));
+    return Span{centre.x - half, centre.x + half};
+  };
+  add(centre.y - reach, centre.y + reach, opacity, span, [&](double x, double y) {
+    return std::hypot(x - centre.x, y - centre.y) - radius;
+  });
 }
 
 void Coverage::add_polygon(const std::vector<Pixel>& corners, double opacity) {

@@ -35,8 +35,9 @@ class Coverage {
   }
 
  private:
-  template <class Distance>
-  void add(Pixel min, Pixel max, double opacity, Distance distance);
+  struct Span;
+  template <class RowSpan, class Distance>
+  void add(double top, double bottom, double opacity, RowSpan span, Distance distance);
 
   int width_;
   int height_;

@@ -237,7 +237,7 @@ void Picture::draw_close_up(Canvas& canvas, const View& view, const VideoFrame& 
     const Viewport plate{view.viewport().left, view.viewport().top,
                          fonts_.regular.width(caption, letters) + style_.length(16),
                          style_.length(24)};
-    part.rectangle(plate, {style_.theme().page, 0.7});
+    part.rectangle(plate, style_.theme().page);
     part.text(fonts_.regular, caption, letters,
               {plate.left + style_.length(8), plate.top + style_.length(17)}, style_.theme().text);
   }

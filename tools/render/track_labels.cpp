@@ -16,7 +16,9 @@ namespace ghtrack::render {
 namespace {
 
 constexpr double kForbidden = std::numeric_limits<double>::infinity();
+constexpr double kBodyCost = 0.7;    // of hiding an object or an estimate
 constexpr double kTrailCost = 0.05;  // of hiding a piece of a trail
+constexpr std::size_t kCrowd = 60;   // of which labels must not hide anybody
 constexpr double kPlate = 0.62;      // opacity of the ground behind a label
 
 /// A label and what it looks like.
@@ -84,16 +86,17 @@ class Captions {
 std::vector<Obstacle> obstacles_of(const Stage& stage, const TrackMemory& memory,
                                    const VideoFrame& frame, const std::vector<Caption>& captions,
                                    const std::vector<Viewport>& keep_out) {
+  const double body = captions.size() > kCrowd ? kForbidden : kBodyCost;
   std::vector<Obstacle> obstacles;
   for (const Viewport& area : keep_out) obstacles.push_back({area, kForbidden});
   if (stage.shows(Layer::kGrid)) obstacles.push_back({scale_bar_box(stage), kForbidden});
   for (const Caption& caption : captions) {
     const auto& [id, anchor, reach, width, height] = caption.request;
-    obstacles.push_back({{anchor.x - reach, anchor.y - reach, 2.0 * reach, 2.0 * reach}});
+    obstacles.push_back({{anchor.x - reach, anchor.y - reach, 2.0 * reach, 2.0 * reach}, body});
   }
   if (stage.shows(Layer::kTruth))
-    for (const Viewport& body : drawn_bodies(stage.view, stage.scene, frame.truth, stage.style))
-      obstacles.push_back({body});
+    for (const Viewport& place : drawn_bodies(stage.view, stage.scene, frame.truth, stage.style))
+      obstacles.push_back({place, body});
   if (!stage.shows(Layer::kTrails)) return obstacles;
   const double piece = stage.style.length(12);
   for (const auto& [id, trace] : memory.traces()) {

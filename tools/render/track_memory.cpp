@@ -42,11 +42,16 @@ double TrackMemory::event_age(double time) const {
   return std::clamp((now_.value_or(time) - time) * manner_.slow / kEventSeconds, 0.0, 1.0);
 }
 
-/// Tracks that are alive together look different as long as there are colours.
-std::size_t TrackMemory::least_used_color() const {
+/// The colour of the object that it follows, unless another track has it: tracks that are alive
+/// together look different as long as there are colours.
+std::size_t TrackMemory::color_for(const Trace& new_trace) const {
   std::array<int, std::tuple_size_v<decltype(Theme::tracks)>> uses{};
   for (const auto& [id, trace] : traces_) {
     if (trace.color) ++uses[*trace.color];
+  }
+  if (new_trace.object) {
+    const std::size_t own = static_cast<std::size_t>(*new_trace.object) % uses.size();
+    if (uses[own] == *std::min_element(uses.begin(), uses.end())) return own;
   }
   return static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin());
 }
@@ -118,9 +123,7 @@ void TrackMemory::note_objects(const PanelFrame& panel) {
   }
   for (auto& [id, trace] : traces_) {
     if (trace.color || trace.last.status == TrackStatus::kTentative) continue;
-    trace.color = trace.object ? static_cast<std::size_t>(*trace.object) %
-                                     manner_.theme->tracks.size()
-                               : least_used_color();
+    trace.color = color_for(trace);
     trace.label.clear();  // the speed is known by now
   }
 }

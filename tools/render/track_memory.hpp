@@ -74,7 +74,7 @@ class TrackMemory {
   void note_objects(const PanelFrame& panel);
   void end(const Trace& trace);
   void update_label(Trace& trace, double now, double since) const;
-  std::size_t least_used_color() const;
+  std::size_t color_for(const Trace& new_trace) const;
   std::u32string label_text(const Trace& trace) const;
   void thin(std::deque<std::pair<double, Vec2>>& trail) const;
 

@@ -73,6 +73,43 @@ TEST(ScanReader, TakesAnEmptyPositionForAMissedDetection) {
   }
 }
 
+// Property: what a logger wrote twice to the letter was seen once; what only looks alike was not.
+TEST(ScanReader, PassesOverRepeatedRows) {
+  EXPECT_EQ(scans_of("t,x,y\n0,1,2\n0,1,2\n0,1,2\n1,3,4\n1,3,4.0\n0.5,1,1\n0.5,1,1\n"),
+            "0/0: 1,2; 0.5/0: 1,1; 1/0: 3,4 3,4; ");
+  const ScratchFolder folder;
+  const ScanReader reader(folder.write("in.csv", "t,x,y\n0,1,2\n0,1,2\n1,3,4\n1,3,4\n").string());
+  EXPECT_EQ(reader.summary().rows, 2);
+  EXPECT_EQ(reader.summary().repeated, 2);
+  EXPECT_THAT(reader.summary().understood, HasSubstr("2 rows repeat the one before"));
+}
+
+// Derived: of BaseStation's messages those count that have a position; times are UTC.
+TEST(ScanReader, ReadsMessagesOfBaseStation) {
+  const std::string callsign =
+      "MSG,1,1,1,4CA2D6,1,2026/03/11,12:00:00.000,2026/03/11,12:00:00.100,EIN123,,,,,,,,,,,0\n";
+  const auto position = [](const char* time, double latitude) {
+    return "MSG,3,1,1,4CA2D6,1,2026/03/11," + std::string(time) + ",2026/03/11," + time + ",,36000,,," +
+           std::to_string(latitude) + ",-1.5,,,0,0,0,0\n";
+  };
+  const ScratchFolder folder;
+  const auto file = folder.write("flights.sbs", callsign + position("12:00:01.500", 51.0) + "STA,,1,1,4CA2D6,1\n" +
+                                                    position("12:00:02.000", 51.001));
+  ScanReader reader(file.string());
+  EXPECT_EQ(reader.summary().rows, 2);
+  EXPECT_NEAR(reader.summary().period, 0.5, 1e-6);
+  ASSERT_TRUE(reader.summary().origin);
+  Scan first, second;
+  ASSERT_TRUE(reader.next(first) && reader.next(second));
+  EXPECT_NEAR(first.time, 1773230401.5, 1e-3);  // date -u -d '2026-03-11 12:00:01.5' +%s.%N
+  constexpr double kMetresPerDegree = 111253.0;  // of latitude at 51°
+  EXPECT_NEAR((second.detections[0].position - first.detections[0].position).norm(),
+              0.001 * kMetresPerDegree, 0.1);
+  EXPECT_THAT(message_of(position("12:00:01.500", 51.0) + "MSG,3,1,1,4CA2D6\n",
+                         [](const auto& path) { ScanReader(path.string()); }),
+              HasSubstr("in.csv:2: error: 5 fields; a message of BaseStation has 22"));
+}
+
 // Property: units, formats of time and names of columns change nothing.
 TEST(ScanReader, UnderstandsUnitsAndAliases) {
   const std::string expected = "0/0: 1,2; 0.5/0: 1.5,2.5; ";

@@ -338,5 +338,24 @@ TEST(TextTable, AlignsColumns) {
             "abcde…  10.5\n");
 }
 
+// Property: a column that says more of another never begins a table of its own, at any width.
+TEST(TextTable, KeepsColumnsTogetherThatBelongTogether) {
+  const std::vector<TextColumn> columns = {
+      {"name", 8},          {"trusting", 8, true}, {"lost %", 6, true, true}, {"nervous", 8, true},
+      {"lost %", 6, true, true}, {"middle", 8, true}};
+  const std::vector<std::vector<std::string>> rows = {{"train", "9.97", "1", "14.8", "3", "9.2"}};
+  for (std::size_t width = 20; width < 70; ++width) {
+    std::istringstream text(text_table(columns, rows, {.width = width}));
+    int headings = 0;
+    for (std::string line; std::getline(text, line);) {
+      EXPECT_LE(line.size(), width);
+      if (!line.starts_with("name")) continue;
+      ++headings;
+      EXPECT_NE(line.find_first_not_of(' ', 4), line.find("lost %")) << line;
+    }
+    EXPECT_GE(headings, width < 40 ? 2 : 1) << width;
+  }
+}
+
 }  // namespace
 }  // namespace ghtrack

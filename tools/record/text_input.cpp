@@ -1,4 +1,4 @@
-#include "tools/data/text_input.hpp"
+#include "tools/record/text_input.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
