@@ -131,9 +131,9 @@
   }
 
   const columns = [
-    ["error (RMSE) [m]", ["rmse"]], ["predicted", ["predicted"]],
+    ["RMSE [m]", ["rmse"]], ["predicted", ["predicted"]],
     ["raw", ["raw"]], ["best fixed gains", ["best_fixed_gains"]],
-    ["bound (CRLB)", ["crlb"]], ["mean |residual|", ["mai"]], ["used", ["detections_used"]], ["missed", ["detections_missed"]],
+    ["bound (CRLB)", ["crlb"]], ["|residual|", ["mai"]], ["used", ["detections_used"]], ["missed", ["detections_missed"]],
   ];
   const value = (from, keys) => keys.map((key) => from[key]).find((v) => v !== undefined && v !== null);
 
@@ -301,6 +301,7 @@
     const both = state.result.answers.length === 2;
     byId("lab-views").dataset.count = both ? 2 : 1;
     byId("lab-view-1").parentElement.hidden = !both;
+    views.forEach((view) => view.shape());
     const names = sideNames();
     const filters = controls.trackers.map((tracker) => Object.entries(tracker.filters)
       .map(([name, filter]) => Object.keys(tracker.filters).length === 1 ? Object.keys(filter)[0] : `${name} ${Object.keys(filter)[0]}`).join(", ") || "default filter");

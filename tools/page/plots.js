@@ -39,11 +39,13 @@ lab.Plot = class {
       }
     }
     if (!(high > -Infinity)) [low, high] = [0, 1];
+    const isSize = this.floor === undefined && low >= 0 && bands.length === 0;
+    if (isSize) low = 0;
     if (this.unit === "1") [low, high] = [0, 1.02];
     if (high === low) { high += 0.5; if (this.floor === undefined) low -= 0.5; }
     const margin = this.unit === "1" ? 0 : 0.05 * (high - low);
     high += margin;
-    if (this.floor === undefined) low -= margin;
+    if (this.floor === undefined && !isSize) low -= margin;
     this.x = (t) => this.left + (this.right - this.left) * t / this.state.duration;
     this.y = (v) => this.bottom - (this.bottom - this.top) * (v - low) / (high - low);
 
@@ -104,7 +106,7 @@ lab.Plot = class {
   }
 
   draw() {
-    if (this.still.width === 0 || this.canvas.width !== this.still.width) return;
+    if (!this.x || this.canvas.width !== this.still.width) return;  // not shown yet
     const { pen } = this;
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.drawImage(this.still, 0, 0);

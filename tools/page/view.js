@@ -73,6 +73,14 @@ lab.WorldView = class {
     this.listen();
   }
 
+  /** As high as the world asks for, as far as it leaves room for what is below. */
+  shape() {
+    const [[x0, y0], [x1, y1]] = this.state.camera.world;
+    const wanted = 1.06 * this.canvas.clientWidth * (y1 - y0) / Math.max(x1 - x0, 1e-3);
+    const height = `${Math.round(Math.min(0.6 * innerHeight, Math.max(0.3 * innerHeight, wanted)))}px`;
+    if (this.canvas.style.height !== height) this.canvas.style.height = height;
+  }
+
   size() {
     const ratio = devicePixelRatio || 1;
     const { clientWidth: width, clientHeight: height } = this.canvas;
@@ -421,7 +429,10 @@ lab.WorldView = class {
       const width = pen.measureText(object.name).width;
       const [px, py] = [this.x(at[0]), this.y(at[1])];
       if (px < -50 || py < -30 || px > this.width + 50 || py > this.height + 30) return;
-      const places = [[11, -11], [11, 21], [-width - 11, -11], [-width - 11, 21], [11, -27], [11, 37]];
+      // Ahead of the object rather than on its path.
+      const before = state.truth.at(i, Math.max(0, state.time - 0.3 * Math.min(state.trail, 10)));
+      const left = -width - 11, aside = before && before[0] > at[0] ? [left, 11] : [11, left];
+      const places = aside.flatMap((dx) => [[dx, -11], [dx, 21]]).concat([[aside[0], -27], [aside[0], 37]]);
       const place = places.find(([dx, dy]) => !taken.some(([x, y, w]) => px + dx < x + w + 4 &&
         px + dx + width + 4 > x && Math.abs(py + dy - y) < 15)) ?? places[0];
       const [x, y] = [Math.min(Math.max(px + place[0], 2), this.width - width - 2), py + place[1]];

@@ -1,8 +1,5 @@
 #include "tools/render/background.hpp"
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -12,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/render/codecs.hpp"
 #include "tools/render/palette.hpp"
 
 namespace ghtrack::render {
@@ -38,7 +36,7 @@ bool is_picture(const fs::path& path) {
 }
 
 cv::Mat read_picture(const fs::path& path) {
-  cv::Mat image = cv::imread(path.string(), cv::IMREAD_COLOR);
+  cv::Mat image = codecs().read_picture(path);
   if (image.empty()) throw RequestError("'" + path.string() + "' cannot be read as a picture");
   return image;
 }
@@ -134,13 +132,12 @@ class Pictures : public Background {
 /// A video. Its pictures are shown when their time has come, which phones do not space evenly.
 class Film : public Background {
  public:
-  explicit Film(const FootageOptions& options) : path_(fs::absolute(options.background)) {
-    const bool is_open = video_.open(path_.string(), cv::CAP_FFMPEG);
-    if (is_open) video_.set(cv::CAP_PROP_ORIENTATION_AUTO, 1);
-    const double rate = is_open ? video_.get(cv::CAP_PROP_FPS) : 0.0;
+  explicit Film(const FootageOptions& options)
+      : video_(codecs().open_film(fs::absolute(options.background))) {
+    const double rate = video_ ? video_->rate() : 0.0;
     info_.fps = rate >= kLeastRate && rate <= kMostRate ? rate : kUsualRate;
     info_.moves = true;
-    if (!is_open || !read_ahead()) {
+    if (!video_ || !read_ahead()) {
       throw RequestError("the background '" + options.background.string() +
                          "' is neither a video nor a picture that can be read");
     }
@@ -169,8 +166,8 @@ class Film : public Background {
   /// The time of the next picture is the container's; where that has none, as OpenCV says of the
   /// last few, it follows the rate.
   bool read_ahead() {
-    if (!video_.read(ahead_) || ahead_.empty()) return false;
-    double time = video_.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+    double time = 0.0;
+    if (!video_->next(ahead_, time)) return false;
     if (read_ == 0) start_ = time;
     time -= start_;
     if (read_ > 0 && !(time > ahead_time_)) time = ahead_time_ + 1.0 / info_.fps;
@@ -179,8 +176,7 @@ class Film : public Background {
     return true;
   }
 
-  fs::path path_;
-  cv::VideoCapture video_;
+  std::unique_ptr<FilmReader> video_;
   BackgroundInfo info_;
   cv::Mat now_, ahead_;
   double now_time_ = 0.0, ahead_time_ = 0.0, start_ = 0.0;  // [s]

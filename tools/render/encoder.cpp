@@ -1,14 +1,9 @@
 #include "tools/render/encoder.hpp"
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
-
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -17,6 +12,7 @@
 
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/render/codecs.hpp"
 #include "tools/render/output_path.hpp"
 
 namespace ghtrack::render {
@@ -35,41 +31,6 @@ fs::path find_ffmpeg() {
   }
   return {};
 }
-
-/// The codec that goes with a format; other pairs are changed or spoilt by the backend silently.
-int fourcc(const fs::path& file) {
-  const std::string extension = file.extension().string();
-  if (extension == ".mp4") return cv::VideoWriter::fourcc('a', 'v', 'c', '1');
-  if (extension == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-  if (extension == ".mkv") return cv::VideoWriter::fourcc('F', 'F', 'V', '1');
-  throw OutputError("cannot write " + file.extension().string().substr(1) +
-                    " without the program ffmpeg, which is not installed; "
-                    "available: mp4, avi, mkv, png");
-}
-
-class OpenCvEncoder : public ImageEncoder {
- public:
-  OpenCvEncoder(const VideoOptions& options, const fs::path& file)
-      : size_(options.width, options.height),
-        writer_(file.string(), cv::CAP_FFMPEG, fourcc(file), options.fps, size_) {
-    if (!writer_.isOpened())
-      throw OutputError("cannot write '" + file.string() +
-                        "': OpenCV's FFmpeg has no encoder for it");
-  }
-
-  void add(const cv::Mat& image) override {
-    // The backend drops images of another kind without a word.
-    if (image.size() != size_ || image.type() != CV_8UC3)
-      throw std::logic_error("a video's images must be 8 bit BGR and of one size");
-    writer_.write(image);
-  }
-
-  void close() override { writer_.release(); }
-
- private:
-  cv::Size size_;
-  cv::VideoWriter writer_;
-};
 
 class PngEncoder : public ImageEncoder {
  public:
@@ -113,7 +74,7 @@ std::unique_ptr<ImageEncoder> make_encoder(const VideoOptions& options, const fs
 
 std::unique_ptr<ImageEncoder> make_opencv_encoder(const VideoOptions& options,
                                                   const fs::path& file) {
-  return std::make_unique<OpenCvEncoder>(options, file);
+  return codecs().open_encoder(options, file);
 }
 
 std::unique_ptr<ImageEncoder> make_png_encoder(const fs::path& file) {
@@ -125,9 +86,7 @@ std::unique_ptr<ImageEncoder> make_png_sequence(const fs::path& folder) {
 }
 
 void write_png(const fs::path& path, const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes))
-    throw OutputError("cannot write '" + path.string() + "': OpenCV has no encoder for PNG");
+  std::vector<unsigned char> bytes = codecs().as_png(image);
   constexpr std::ptrdiff_t kEnd = 12;  // bytes of the last chunk, IEND
   const std::string_view mark = picture_mark();
   bytes.insert(bytes.end() - kEnd, mark.begin(), mark.end());
@@ -136,29 +95,6 @@ void write_png(const fs::path& path, const cv::Mat& image) {
   } catch (const WriteError& error) {
     throw OutputError(error.what());
   }
-}
-
-void verify_video(const fs::path& file, std::size_t frames) {
-  const std::string extension = file.extension().string();
-  cv::VideoCapture video(file.string(), cv::CAP_FFMPEG);
-  const auto expected = static_cast<double>(frames);
-  cv::Mat last;
-  double found = 0.0;
-  if (extension == ".mp4" || extension == ".avi") {
-    found = video.get(cv::CAP_PROP_FRAME_COUNT);
-    if (found == expected && video.set(cv::CAP_PROP_POS_FRAMES, expected - 1.0)) video.read(last);
-  } else {  // these headers hold no count
-    while (video.grab()) {
-      found += 1.0;
-      if (found == expected) video.retrieve(last);
-    }
-  }
-  if (found == expected && !last.empty()) return;
-  const std::string_view reason = space_problem(file.parent_path());
-  throw OutputError("cannot write '" + file.string() + "': " +
-                    (reason.empty() ? "of " + std::to_string(frames) + " frames only " +
-                                          std::to_string(std::lround(found)) + " can be read back"
-                                    : std::string(reason)));
 }
 
 }  // namespace ghtrack::render

@@ -20,8 +20,8 @@ class VideoSink {
   virtual void keep_partial() = 0;
 };
 
-/// What the loadable module `ghtrack_render.so` offers. All of OpenCV lies behind it, because its
-/// 244 shared libraries would cost every start of the program 164 ms.
+/// What the loadable module `ghtrack_render.so` offers: OpenCV's drawing. OpenCV's files lie behind
+/// another (codecs.hpp), because few videos need them.
 class RenderModule {
  public:
   virtual ~RenderModule() = default;

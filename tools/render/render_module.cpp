@@ -1,8 +1,3 @@
-#include <opencv2/core.hpp>
-#include <opencv2/core/utils/logger.hpp>
-
-#include <cstdlib>
-
 #include "tools/render/footage_file.hpp"
 #include "tools/render/module.hpp"
 #include "tools/render/plot_picture.hpp"
@@ -14,12 +9,6 @@ namespace {
 
 class OpenCvModule : public RenderModule {
  public:
-  OpenCvModule() {
-    // The backends print pages about what this module reports in one sentence.
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
-  }
-
   std::unique_ptr<VideoSink> open_video(const VideoOptions& options,
                                         const SceneDrawing& scene) override {
     return open_video_file(options, scene);
