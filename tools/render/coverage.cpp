@@ -8,18 +8,24 @@ namespace ghtrack::render {
 
 namespace {
 
-/// Nearest pixel in [low, high]; for positions of any size.
+/// The pixel of a position, or the nearest in [low, high], which are not negative; for positions of
+/// any size.
 int pixel_in(double position, int low, int high) {
   return static_cast<int>(std::clamp(position, 1.0 * low, 1.0 * high));
 }
 
+double distance_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
+/// One past the last pixel that a stroke up to there can cover, in [low, high].
+int past(double position, int low, int high) { return pixel_in(position + 2.0, low, high); }
+
 }  // namespace
 
 void Coverage::clear(Pixel min, Pixel max) {
-  left_ = pixel_in(std::floor(min.x), 0, width_);
-  top_ = pixel_in(std::floor(min.y), 0, height_);
-  right_ = pixel_in(std::ceil(max.x) + 1.0, left_, width_);
-  bottom_ = pixel_in(std::ceil(max.y) + 1.0, top_, height_);
+  left_ = pixel_in(min.x, 0, width_);
+  top_ = pixel_in(min.y, 0, height_);
+  right_ = past(max.x, left_, width_);
+  bottom_ = past(max.y, top_, height_);
   shares_.assign(
       static_cast<std::size_t>(right_ - left_) * static_cast<std::size_t>(bottom_ - top_), 0);
 }
@@ -34,15 +40,15 @@ struct Coverage::Span {
 /// @param distance  of a pixel's centre beyond the edge, negative inside [px]
 template <class RowSpan, class Distance>
 void Coverage::add(double top, double bottom, double opacity, RowSpan span, Distance distance) {
-  const int first_row = pixel_in(std::floor(top), top_, bottom_);
-  const int last_row = pixel_in(std::ceil(bottom) + 1.0, top_, bottom_);
+  const int first_row = pixel_in(top, top_, bottom_);
+  const int last_row = past(bottom, top_, bottom_);
   const double full = 255.0 * std::clamp(opacity, 0.0, 1.0);
   for (int y = first_row; y < last_row; ++y) {
     std::uint8_t* shares =
         shares_.data() + static_cast<std::ptrdiff_t>(y - top_) * (right_ - left_);
     const auto cover = [&](double low, double high) {
-      const int last = pixel_in(std::ceil(high) + 1.0, left_, right_);
-      for (int x = pixel_in(std::floor(low), left_, right_); x < last; ++x) {
+      const int last = past(high, left_, right_);
+      for (int x = pixel_in(low, left_, right_); x < last; ++x) {
         const double share = std::min(1.0, 0.5 - distance(1.0 * x, 1.0 * y));
         if (!(share > 0.0)) continue;
         std::uint8_t& here = shares[x - left_];
@@ -100,7 +106,7 @@ void Coverage::add_ring(Pixel centre, double radius, double thickness, double op
     return Span{centre.x - half, centre.x + half, centre.x - hole, centre.x + hole};
   };
   add(centre.y - outer, centre.y + outer, opacity, span, [&](double x, double y) {
-    return std::abs(std::hypot(x - centre.x, y - centre.y) - radius) - 0.5 * thickness;
+    return std::abs(distance_of(x - centre.x, y - centre.y) - radius) - 0.5 * thickness;
   });
 }
 
@@ -112,7 +118,7 @@ void Coverage::add_disc(Pixel centre, double radius, double opacity) {
     return Span{centre.x - half, centre.x + half};
   };
   add(centre.y - reach, centre.y + reach, opacity, span, [&](double x, double y) {
-    return std::hypot(x - centre.x, y - centre.y) - radius;
+    return distance_of(x - centre.x, y - centre.y) - radius;
   });
 }
 

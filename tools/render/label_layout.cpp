@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace ghtrack::render {
 
@@ -42,18 +44,23 @@ class Squares {
       : area_(area), columns_(1 + last(area.width)), squares_(columns_ * (1 + last(area.height))) {}
 
   void add(std::size_t index, const Viewport& box) {
-    each_square(box, [&](std::vector<std::size_t>& square) { square.push_back(index); });
+    each_square(box, [&](std::vector<std::size_t>& square) {
+      square.push_back(index);
+      return true;
+    });
+    if (index >= last_visit_.size()) last_visit_.resize(index + 1, 0);
   }
 
-  /// The numbers of all rectangles that touch the squares of this one, ascending.
-  const std::vector<std::size_t>& near(const Viewport& box) {
-    near_.clear();
+  /// Visits each rectangle that touches the squares of this one, once, as long as visit(index)
+  /// wants more.
+  template <class Visit>
+  void each_near(const Viewport& box, const Visit& visit) {
+    ++visits_;
     each_square(box, [&](const std::vector<std::size_t>& square) {
-      near_.insert(near_.end(), square.begin(), square.end());
+      return std::all_of(square.begin(), square.end(), [&](std::size_t index) {
+        return std::exchange(last_visit_[index], visits_) == visits_ || visit(index);
+      });
     });
-    std::sort(near_.begin(), near_.end());
-    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
-    return near_;
   }
 
  private:
@@ -72,7 +79,7 @@ class Squares {
     const double right = std::min(box.right(), area_.right());
     for (std::size_t row = last(top - area_.top); row <= last(bottom - area_.top); ++row) {
       for (std::size_t i = last(left - area_.left); i <= last(right - area_.left); ++i) {
-        visit(squares_[row * columns_ + i]);
+        if (!visit(squares_[row * columns_ + i])) return;
       }
     }
   }
@@ -80,7 +87,8 @@ class Squares {
   Viewport area_;
   std::size_t columns_;
   std::vector<std::vector<std::size_t>> squares_;
-  std::vector<std::size_t> near_;
+  std::vector<std::uint64_t> last_visit_;  // of each rectangle
+  std::uint64_t visits_ = 0;
 };
 
 }  // namespace
@@ -101,10 +109,12 @@ std::vector<std::optional<Viewport>> LabelLayout::place(const std::vector<LabelR
   const int directions = static_cast<int>(kDirections.size());
   for (const LabelRequest& request : requests) {
     const auto is_taken = [&](const Viewport& place) {
-      const std::vector<std::size_t>& others = label_squares.near(place);
-      return std::any_of(others.begin(), others.end(), [&](std::size_t other) {
-        return overlap(place, *places[other]) > 0.0;
+      bool taken = false;
+      label_squares.each_near(place, [&](std::size_t other) {
+        taken = overlap(place, *places[other]) > 0.0;
+        return !taken;
       });
+      return taken;
     };
     const auto previous = slots_.find(request.id);
     double least = std::numeric_limits<double>::infinity();
@@ -115,12 +125,12 @@ std::vector<std::optional<Viewport>> LabelLayout::place(const std::vector<LabelR
           kDirectionCost * (slot % directions) + kDistanceCost * (slot / directions);
       if (previous != slots_.end() && previous->second != slot) cost += kMoveCost;
       if (!(cost < least) || !lies_within(place, area) || is_taken(place)) continue;
-      for (const std::size_t i : obstacle_squares.near(place)) {
+      obstacle_squares.each_near(place, [&](std::size_t i) {
         const double hidden = overlap(place, obstacles[i].box);
-        if (!(hidden > 0.0)) continue;
+        if (!(hidden > 0.0)) return true;
         cost += obstacles[i].cost * (1.0 + 5.0 * hidden / (request.width * request.height));
-        if (!(cost < least)) break;
-      }
+        return cost < least;
+      });
       if (!(cost < least)) continue;
       least = cost;
       best = place;
