@@ -175,6 +175,18 @@ TEST(Video, LooksAsItsSceneSays) {
   EXPECT_FALSE(contents(by_option) == contents(without));
 }
 
+// Derived: without a wish the past of an eighth of the scene is shown, of 100 s 12.5.
+TEST(Video, ShowsThePathsOfLongScenes) {
+  const TemporaryFolder folder;
+  const auto picture = [&](const std::string& name, const std::string& trail) {
+    return contents(video(folder, "tracking/crossing.yaml", name,
+                          "--from 40 --to 40 --size 640x360" + trail));
+  };
+  const std::string usual = picture("usual.png", "");
+  EXPECT_TRUE(usual == picture("eighth.png", " --trail 12.5"));
+  EXPECT_FALSE(usual == picture("short.png", " --trail 3"));
+}
+
 // Property: the same scene gives the same bytes in mp4 and avi, and the same images in webm.
 TEST(Video, RepeatsItselfInEveryFormat) {
   const TemporaryFolder folder;

@@ -81,7 +81,7 @@ lab.Plot = class {
       pen.fill();
       pen.globalAlpha = 1;
     }
-    pen.lineJoin = "round";
+    pen.lineJoin = pen.lineCap = "round";
     for (const { colour, width: thick, dash, dots, points } of curves) {
       pen.strokeStyle = pen.fillStyle = colour;
       if (dots) {
@@ -96,7 +96,8 @@ lab.Plot = class {
       let isDown = false;
       for (const [t, value] of points) {
         if (!Number.isFinite(value)) { isDown = false; continue; }
-        if (isDown) pen.lineTo(this.x(t), this.y(value)); else pen.moveTo(this.x(t), this.y(value));
+        if (!isDown) pen.moveTo(this.x(t), this.y(value));
+        pen.lineTo(this.x(t), this.y(value));  // a value between gaps is a dot
         isDown = true;
       }
       pen.stroke();

@@ -26,7 +26,7 @@ Range from_zero_to(double highest) {
 Chart::Chart(const Viewport& area, const Range& times, const Range& values, const Style& style,
              const Typefaces& fonts)
     : area_(area),
-      box_{area.left + style.length(52), area.top + style.length(24), area.width - style.length(66),
+      box_{area.left + style.length(52), area.top + style.length(24), area.width - style.length(74),
            area.height - style.length(46)},
       times_(times),
       values_(values),

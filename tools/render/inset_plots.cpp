@@ -105,8 +105,11 @@ void InsetPlots::draw_plot(Canvas& canvas, const Viewport& area, Quantity quanti
   const auto draw_curves = [&](const std::map<int, Curve>& curves, double thickness, bool is_truth) {
     for (const auto& [id, curve] : curves) {
       std::vector<Pixel> line;  // a value that is not finite gives a gap
-      for (const Sample& sample : curve.samples)
+      for (const Sample& sample : curve.samples) {
+        // A missed detection has no residual; points between two of them would not be seen.
+        if (quantity == kResidual && !std::isfinite(sample.values[quantity])) continue;
         line.push_back(chart.at(sample.time, sample.values[quantity]));
+      }
       inside.polyline(line, is_truth ? style.theme().truth_edge : curve.color,
                       style.length(thickness));
     }

@@ -1,0 +1,61 @@
+#include "tools/render/track_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace ghtrack::render {
+namespace {
+
+constexpr int kObjects = 9;
+
+std::vector<ObjectInfo> objects() {
+  std::vector<ObjectInfo> all(kObjects);
+  for (int i = 0; i < kObjects; ++i) {
+    all[static_cast<std::size_t>(i)].id = 5 * i;  // ids that share colours
+    all[static_cast<std::size_t>(i)].name = "object " + std::to_string(i);
+  }
+  return all;
+}
+
+// Property: tracks that are alive together look different as long as there are colours, whatever
+// they change over to, and a track keeps its colour as long as it lives.
+TEST(TrackMemory, TellsTracksApartByColour) {
+  const std::vector<ObjectInfo> named = objects();
+  TrackMemory memory({}, named);
+  std::mt19937 random(20);
+  std::vector<int> ids(kObjects);  // of the tracks that are alive
+  std::iota(ids.begin(), ids.end(), 1);
+  std::vector<std::size_t> follows(kObjects);
+  std::iota(follows.begin(), follows.end(), 0U);
+  int next_id = kObjects + 1;
+  std::map<int, Color> seen;
+  for (int scan = 0; scan < 300; ++scan) {
+    if (scan % 7 == 3) ids[random() % kObjects] = next_id++;
+    if (scan % 5 == 2) std::swap(follows[random() % kObjects], follows[random() % kObjects]);
+    VideoFrame frame;
+    frame.time = 0.1 * scan;
+    PanelFrame panel;
+    panel.tracks.time = frame.time;
+    for (std::size_t i = 0; i < kObjects; ++i) {
+      TrackEstimate& track = panel.tracks.tracks.emplace_back();
+      track.id = ids[i];
+      track.status = TrackStatus::kConfirmed;
+      panel.pairings.push_back({.object = named[follows[i]].id, .track = ids[i], .distance = 0.0});
+    }
+    memory.remember(frame, panel);
+    std::vector<Color> colors;
+    for (const TrackEstimate& track : panel.tracks.tracks) {
+      const Color color = memory.color_of(track);
+      EXPECT_EQ(std::count(colors.begin(), colors.end(), color), 0) << "scan " << scan;
+      colors.push_back(color);
+      EXPECT_EQ(seen.try_emplace(track.id, color).first->second, color) << "track " << track.id;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ghtrack::render
