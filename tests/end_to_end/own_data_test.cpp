@@ -320,7 +320,8 @@ TEST(OwnData, TracksAreFilmed) {
   const Outcome points = shell("ghtrack track " + walk + " -o walk.csv --video walk.png", folder.path());
   ASSERT_EQ(points.exit_code, 0) << points.err;
   EXPECT_THAT(points.err, HasSubstr("times as fast"));
-  const Outcome smooth = shell("ghtrack track " + walk + " --smooth -o smooth.csv --video smooth.png", folder.path());
+  const Outcome smooth = shell(
+      "ghtrack track " + walk + " --smooth -o smooth.csv --video smooth.png", folder.path());
   ASSERT_EQ(smooth.exit_code, 0) << smooth.err;
   EXPECT_NE(contents(folder.path() / "smooth.png"), contents(folder.path() / "walk.png"));
   const Outcome late = shell("ghtrack track " + walk +

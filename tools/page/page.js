@@ -41,7 +41,7 @@
   ];
   let isStale = true;      // the result is not that of the setting
   let isDrawn = false;     // the picture is that of the state
-  let scoresAreDue;
+  let scoresAreDue, plotsAreDue;
 
   // ---- computing
 
@@ -67,6 +67,14 @@
     }
   }
 
+  /** Where they are told whose a detection is, nothing is to be doubted. */
+  function tracksKnowExistence(tracks) {
+    for (let row = 0; row < tracks.length; ++row) {
+      if (!Number.isNaN(tracks.get(row, "existence"))) return true;
+    }
+    return false;
+  }
+
   function compute() {
     isStale = false;
     byId("lab-problem").textContent = "";
@@ -83,8 +91,9 @@
     state.result.answers.forEach(index);
     choose();
     lab.computingTime = performance.now() - start;
-    byId("lab-existence").parentElement.hidden = !lab.existenceCurves(state).some(({ points }) => points.some(([, real]) => !Number.isNaN(real)));
-    for (const plot of plots) plot.refresh();
+    byId("lab-existence").parentElement.hidden = !state.result.answers.some(({ tracks }) => tracksKnowExistence(tracks));
+    // While a slider moves, the world is drawn anew each time and the plots now and then.
+    plotsAreDue ??= setTimeout(() => { plotsAreDue = undefined; for (const plot of plots) plot.refresh(); }, 90);
     clearTimeout(scoresAreDue);
     scoresAreDue = setTimeout(score, 180);
   }

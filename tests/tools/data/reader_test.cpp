@@ -89,12 +89,13 @@ TEST(ScanReader, ReadsMessagesOfBaseStation) {
   const std::string callsign =
       "MSG,1,1,1,4CA2D6,1,2026/03/11,12:00:00.000,2026/03/11,12:00:00.100,EIN123,,,,,,,,,,,0\n";
   const auto position = [](const char* time, double latitude) {
-    return "MSG,3,1,1,4CA2D6,1,2026/03/11," + std::string(time) + ",2026/03/11," + time + ",,36000,,," +
-           std::to_string(latitude) + ",-1.5,,,0,0,0,0\n";
+    return "MSG,3,1,1,4CA2D6,1,2026/03/11," + std::string(time) + ",2026/03/11," + time +
+           ",,36000,,," + std::to_string(latitude) + ",-1.5,,,0,0,0,0\n";
   };
   const ScratchFolder folder;
-  const auto file = folder.write("flights.sbs", callsign + position("12:00:01.500", 51.0) + "STA,,1,1,4CA2D6,1\n" +
-                                                    position("12:00:02.000", 51.001));
+  const auto file =
+      folder.write("flights.sbs", callsign + position("12:00:01.500", 51.0) +
+                                      "STA,,1,1,4CA2D6,1\n" + position("12:00:02.000", 51.001));
   ScanReader reader(file.string());
   EXPECT_EQ(reader.summary().rows, 2);
   EXPECT_NEAR(reader.summary().period, 0.5, 1e-6);
