@@ -68,10 +68,11 @@ double usual_trail(double duration, double slow) {
   return std::max(kLeast, kShare * duration * std::min(1.0, slow));
 }
 
-/// The corner in which close-ups hide the least of what happens.
-VideoCorner free_corner(const render::View& view, const std::vector<Vec2>& places,
-                        std::size_t close_ups) {
+/// The corner in which so many close-ups hide the least of what happens, if that is next to nothing.
+std::optional<VideoCorner> free_corner(const render::View& view, const std::vector<Vec2>& places,
+                                       std::size_t close_ups) {
   constexpr double kWidth = 0.3, kHeight = 0.4;  // of the picture, about, for each
+  constexpr double kMostHidden = 0.01;           // of all places
   const render::Viewport& picture = view.viewport();
   const double height = kHeight * static_cast<double>(close_ups) * picture.height;
   constexpr std::array kCorners{VideoCorner::kTopRight, VideoCorner::kTopLeft,
@@ -87,8 +88,9 @@ VideoCorner free_corner(const render::View& view, const std::vector<Vec2>& place
     hidden[2] += is_left && is_bottom;
     hidden[3] += is_right && is_bottom;
   }
-  return kCorners[static_cast<std::size_t>(
-      std::min_element(hidden.begin(), hidden.end()) - hidden.begin())];
+  const auto least = std::min_element(hidden.begin(), hidden.end());
+  if (*least > kMostHidden * static_cast<double>(places.size())) return std::nullopt;
+  return kCorners[static_cast<std::size_t>(least - hidden.begin())];
 }
 
 }  // namespace
@@ -126,7 +128,7 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
 void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,
                           TruthSource& truth, const std::function<void()>& on_step,
                           render::VideoOptions& options) {
-  constexpr double kLeastVisible = 2.5;  // [px] that 1 sigma of a detection should have
+  constexpr double kLeastVisible = 4.0;  // [px] that 1 sigma of a detection should have
   constexpr double kWidthInSigmas = 40.0;
   constexpr double kWidthInLengths = 2.5;
   constexpr std::size_t kMost = 2;
@@ -148,9 +150,16 @@ void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& d
   if (options.close_ups.empty()) return;
   const render::View view(
       world, {0.0, 0.0, static_cast<double>(options.width), static_cast<double>(options.height)});
-  const VideoCorner corner = free_corner(view, places_visited(truth, scene.duration, on_step),
-                                         options.close_ups.size());
-  for (render::CloseUp& close_up : options.close_ups) close_up.corner = corner;
+  const std::vector<Vec2> places = places_visited(truth, scene.duration, on_step);
+  while (!options.close_ups.empty()) {
+    const auto corner = free_corner(view, places, options.close_ups.size());
+    if (!corner) {
+      options.close_ups.pop_back();
+      continue;
+    }
+    for (render::CloseUp& close_up : options.close_ups) close_up.corner = *corner;
+    return;
+  }
 }
 
 render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, TruthSource& truth,

@@ -28,7 +28,7 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, Tru
 
 /// Adds close-ups of the first targets where errors would be far below a pixel of the whole picture,
 /// unless the scene says where to look or shows a crowd. They lie in the corner in which least
-/// happens.
+/// happens, and are as many as hide next to nothing there.
 /// @param truth    gone through if there are any
 /// @param on_step  called now and then meanwhile; may throw to give up
 void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,

@@ -138,9 +138,11 @@ void Canvas::begin(const std::vector<Pixel>& points, double margin) {
 void Canvas::blend(Color color) {
   const std::array<int, 3> ink{color.blue, color.green, color.red};
   for (int y = coverage_.top(); y < coverage_.bottom(); ++y) {
-    const std::uint8_t* share = coverage_.row(y);
-    std::uint8_t* target = image_.ptr(y) + 3 * coverage_.left();
-    const int width = coverage_.right() - coverage_.left();
+    const auto [first, last] = coverage_.span(y);
+    if (first >= last) continue;
+    const std::uint8_t* share = coverage_.share(first, y);
+    std::uint8_t* target = image_.ptr(y) + 3 * first;
+    const int width = last - first;
     for (int x = 0; x < width; ++x) {
       if (x + kEight <= width && is_blank(share + x))
         x += kEight - 1;

@@ -28,18 +28,26 @@ void Coverage::clear(Pixel min, Pixel max) {
   bottom_ = past(max.y, top_, height_);
   shares_.assign(
       static_cast<std::size_t>(right_ - left_) * static_cast<std::size_t>(bottom_ - top_), 0);
+  spans_.assign(static_cast<std::size_t>(bottom_ - top_), {0, 0});
+}
+
+void Coverage::widen(int y, int first, int last) {
+  if (first >= last) return;
+  Span& span = spans_[static_cast<std::size_t>(y - top_)];
+  span = span.first < span.last ? Span{std::min(span.first, first), std::max(span.last, last)}
+                                : Span{first, last};
 }
 
 /// Where a row may be covered: from low to high, except between hole_low and hole_high.
-struct Coverage::Span {
+struct Coverage::Reach {
   double low, high;
   double hole_low = 0.0, hole_high = 0.0;
 };
 
-/// @param span      of a row: its pixels outside have a share of nothing
+/// @param reach     of a row: its pixels outside have a share of nothing
 /// @param distance  of a pixel's centre beyond the edge, negative inside [px]
-template <class RowSpan, class Distance>
-void Coverage::add(double top, double bottom, double opacity, RowSpan span, Distance distance) {
+template <class RowReach, class Distance>
+void Coverage::add(double top, double bottom, double opacity, RowReach reach, Distance distance) {
   const int first_row = pixel_in(top, top_, bottom_);
   const int last_row = past(bottom, top_, bottom_);
   const double full = 255.0 * std::clamp(opacity, 0.0, 1.0);
@@ -47,15 +55,17 @@ void Coverage::add(double top, double bottom, double opacity, RowSpan span, Dist
     std::uint8_t* shares =
         shares_.data() + static_cast<std::ptrdiff_t>(y - top_) * (right_ - left_);
     const auto cover = [&](double low, double high) {
+      const int first = pixel_in(low, left_, right_);
       const int last = past(high, left_, right_);
-      for (int x = pixel_in(low, left_, right_); x < last; ++x) {
+      widen(y, first, last);
+      for (int x = first; x < last; ++x) {
         const double share = std::min(1.0, 0.5 - distance(1.0 * x, 1.0 * y));
         if (!(share > 0.0)) continue;
         std::uint8_t& here = shares[x - left_];
         here = std::max(here, static_cast<std::uint8_t>(full * share + 0.5));
       }
     };
-    const Span row = span(1.0 * y);
+    const Reach row = reach(1.0 * y);
     if (row.hole_high - row.hole_low > 2.0) {
       cover(row.low, row.hole_low);
       cover(row.hole_high, row.high);
@@ -88,36 +98,36 @@ void Coverage::add_line(Pixel from, Pixel to, double thickness, double opacity) 
   const double slope = dx / dy;
   const double half = reach * std::sqrt(1.0 + slope * slope);
   const bool is_level = !std::isfinite(half);
-  const auto span = [&](double y) {
-    if (is_level) return Span{left, right};
+  const auto reach_of = [&](double y) {
+    if (is_level) return Reach{left, right};
     const double middle = from.x + (y - from.y) * slope;
-    return Span{std::max(left, middle - half), std::min(right, middle + half)};
+    return Reach{std::max(left, middle - half), std::min(right, middle + half)};
   };
-  add(std::min(from.y, to.y) - reach, std::max(from.y, to.y) + reach, opacity, span, distance);
+  add(std::min(from.y, to.y) - reach, std::max(from.y, to.y) + reach, opacity, reach_of, distance);
 }
 
 void Coverage::add_ring(Pixel centre, double radius, double thickness, double opacity) {
   const double outer = radius + 0.5 * thickness + 0.5;
   const double inner = std::max(0.0, radius - 0.5 * thickness - 0.5);
-  const auto span = [&](double y) {
+  const auto reach_of = [&](double y) {
     const double up = (y - centre.y) * (y - centre.y);
     const double half = std::sqrt(std::max(0.0, outer * outer - up));
     const double hole = std::sqrt(std::max(0.0, inner * inner - up));
-    return Span{centre.x - half, centre.x + half, centre.x - hole, centre.x + hole};
+    return Reach{centre.x - half, centre.x + half, centre.x - hole, centre.x + hole};
   };
-  add(centre.y - outer, centre.y + outer, opacity, span, [&](double x, double y) {
+  add(centre.y - outer, centre.y + outer, opacity, reach_of, [&](double x, double y) {
     return std::abs(distance_of(x - centre.x, y - centre.y) - radius) - 0.5 * thickness;
   });
 }
 
 void Coverage::add_disc(Pixel centre, double radius, double opacity) {
   const double reach = radius + 0.5;
-  const auto span = [&](double y) {
+  const auto reach_of = [&](double y) {
     const double half =
         std::sqrt(std::max(0.0, reach * reach - (y - centre.y) * (y - centre.y)));
-    return Span{centre.x - half, centre.x + half};
+    return Reach{centre.x - half, centre.x + half};
   };
-  add(centre.y - reach, centre.y + reach, opacity, span, [&](double x, double y) {
+  add(centre.y - reach, centre.y + reach, opacity, reach_of, [&](double x, double y) {
     return distance_of(x - centre.x, y - centre.y) - radius;
   });
 }
@@ -181,8 +191,10 @@ void Coverage::add_polygon(const std::vector<Pixel>& corners, double opacity) {
     }
     std::uint8_t* const shares =
         shares_.data() + static_cast<std::ptrdiff_t>(y - top_) * (right_ - left_);
+    const int first = pixel_in(std::ceil(low), left_, right_);
     const int last = pixel_in(std::floor(high) + 1.0, left_, right_);
-    for (int x = pixel_in(std::ceil(low), left_, right_); x < last; ++x) {
+    widen(y, first, last);
+    for (int x = first; x < last; ++x) {
       const bool is_inside = x >= inner_low && x <= inner_high;
       const double share = is_inside ? 1.0 : std::min(1.0, 0.5 - outside(x, y));
       if (!(share > 0.0)) continue;

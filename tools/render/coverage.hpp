@@ -26,18 +26,25 @@ class Coverage {
   void add_disc(Pixel centre, double radius, double opacity);
   void add_polygon(const std::vector<Pixel>& corners, double opacity);  // convex, any direction
 
-  int left() const { return left_; }
   int top() const { return top_; }
-  int right() const { return right_; }
   int bottom() const { return bottom_; }
-  const std::uint8_t* row(int y) const {
-    return shares_.data() + static_cast<std::ptrdiff_t>(y - top_) * (right_ - left_);
+
+  /// The pixels [first, last) of a row that may be covered; outside nothing is.
+  struct Span {
+    int first, last;
+  };
+  Span span(int y) const { return spans_[static_cast<std::size_t>(y - top_)]; }
+
+  /// Of a pixel within the span of its row.
+  const std::uint8_t* share(int x, int y) const {
+    return shares_.data() + static_cast<std::ptrdiff_t>(y - top_) * (right_ - left_) + (x - left_);
   }
 
  private:
-  struct Span;
-  template <class RowSpan, class Distance>
-  void add(double top, double bottom, double opacity, RowSpan span, Distance distance);
+  struct Reach;
+  template <class RowReach, class Distance>
+  void add(double top, double bottom, double opacity, RowReach reach, Distance distance);
+  void widen(int y, int first, int last);
 
   int width_;
   int height_;
@@ -46,6 +53,7 @@ class Coverage {
   int right_ = 0;
   int bottom_ = 0;
   std::vector<std::uint8_t> shares_;
+  std::vector<Span> spans_;  // of the rows
 };
 
 }  // namespace ghtrack::render
