@@ -128,7 +128,7 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
 void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,
                           TruthSource& truth, const std::function<void()>& on_step,
                           render::VideoOptions& options) {
-  constexpr double kLeastVisible = 4.0;  // [px] that 1 sigma of a detection should have
+  constexpr double kLeastVisible = 1.0 / 320.0;  // of the picture, for 1 sigma of a detection
   constexpr double kWidthInSigmas = 40.0;
   constexpr double kWidthInLengths = 2.5;
   constexpr std::size_t kMost = 2;
@@ -137,10 +137,11 @@ void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& d
   if (says_where || drawing.objects.size() > kCrowd) return;
   const render::Rectangle world = render::world_of(drawing);
   const Vec2 size = world.max - world.min;
-  const double scale = std::min(options.width / size.x(), options.height / size.y());  // [px/m]
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const double whole = std::max(size.x(), aspect * size.y());  // [m] across the picture
   double sigma = 0.0;
   for (const SensorTraits& sensor : traits_of(scene.sensors)) sigma = std::max(sigma, sensor.sigma);
-  if (!(sigma * scale < kLeastVisible)) return;
+  if (!(sigma < kLeastVisible * whole)) return;
   for (const ObjectInfo& object : drawing.objects) {
     if (options.close_ups.size() == kMost) break;
     const double width = std::max(kWidthInSigmas * sigma, kWidthInLengths * object.outline.length);
@@ -150,6 +151,7 @@ void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& d
   if (options.close_ups.empty()) return;
   const render::View view(
       world, {0.0, 0.0, static_cast<double>(options.width), static_cast<double>(options.height)});
+  truth.restart();
   const std::vector<Vec2> places = places_visited(truth, scene.duration, on_step);
   while (!options.close_ups.empty()) {
     const auto corner = free_corner(view, places, options.close_ups.size());
