@@ -129,6 +129,9 @@ class FfmpegEncoder : public ImageEncoder {
     if (::pipe2(ends, O_CLOEXEC) != 0) fail(std::strerror(errno));
     const Descriptor read_end(ends[0]);
     pipe_.reset(ends[1]);
+    // Room for a good part of an image: each time it is full, two processes take turns.
+    constexpr int kRoom = 1 << 20;  // [bytes], what Linux allows everybody
+    ::fcntl(pipe_.get(), F_SETPIPE_SZ, kRoom);
     messages_.reset(::memfd_create("ffmpeg messages", MFD_CLOEXEC));
     if (messages_.get() < 0) fail(std::strerror(errno));
     start(command(options, program, file), read_end.get());
