@@ -49,6 +49,7 @@ void add_rows(Comparison& comparison, std::size_t cell, const std::string& regim
            .median = mean,
            .median_ci95 = std::nullopt,
            .predicted = 0.9 * mean,
+           .predicted_ci95 = std::nullopt,
            .hindsight = metric == Metric::kRmsePosition ? hindsight : Hindsight(),
            .tracking_index = 0.5,
            .runs = 100,
