@@ -25,6 +25,9 @@ std::vector<const TruthState*> states_by_id(const TruthSnapshot& truth, std::siz
 
 namespace {
 
+/// Of more objects nobody asks one by one what error was to be expected.
+constexpr std::size_t kMostExpected = 1000;
+
 /// Differs from run to run, so that what shadows are shown does, too.
 std::uint64_t key_of(const Vec2& position) {
   return combine(std::bit_cast<std::uint64_t>(position.x()),
@@ -34,8 +37,9 @@ std::uint64_t key_of(const Vec2& position) {
 }  // namespace
 
 Following::Following(std::size_t objects, const std::optional<FilterTheory>& theory)
-    : objects_(objects), theory_(theory) {
-  if (!theory_) return;
+    : objects_(objects) {
+  if (!theory || objects > kMostExpected) return;
+  theory_ = theory;
   for (const SensorConfig& sensor : theory_->sensors) {
     errors_.push_back(error_parts(sensor).value_or(std::vector<ErrorPart>{}));
   }

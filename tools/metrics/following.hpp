@@ -27,7 +27,7 @@ struct FilterTheory {
 /// track is. And what error is to be expected of each track.
 class Following {
  public:
-  /// @param theory  without it nothing is expected
+  /// @param theory  without it, and of more than 1000 objects, nothing is expected
   Following(std::size_t objects, const std::optional<FilterTheory>& theory);
 
   /// Goes on to the next scan.
