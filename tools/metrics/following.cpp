@@ -39,7 +39,7 @@ std::uint64_t key_of(const Vec2& position) {
 Following::Following(std::size_t objects, const std::optional<FilterTheory>& theory)
     : objects_(objects) {
   if (!theory || objects > kMostExpected) return;
-  theory_ = theory;
+  theory_.emplace(*theory);
   for (const SensorConfig& sensor : theory_->sensors) {
     errors_.push_back(error_parts(sensor).value_or(std::vector<ErrorPart>{}));
   }
