@@ -11,7 +11,7 @@ namespace ghtrack {
 /// its scans hold one detection each, what follows another is somewhere else, and a little later
 /// something is back near the first.
 /// @param scans  of one sensor, in the order of time
-/// @return the typical time until an object is reported again [s], or nothing if each scan seems to
+/// @return the time in which most objects are reported again [s], or nothing if each scan seems to
 ///         show all that there is
 std::optional<double> revisit_time(std::span<const Scan* const> scans);
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace ghtrack {
@@ -35,6 +37,38 @@ TEST(Coverage, OneObjectAtATimeIsRecognisedWithItsTurn) {
   const auto revisit = revisit_of(in_turn(4, 10.0, 5.0));
   ASSERT_TRUE(revisit.has_value());
   EXPECT_NEAR(*revisit, 2.0, 1e-9);
+}
+
+/// Ships that report every so many seconds, each in its own rhythm, with times of a tenth of a second.
+std::vector<Scan> ships(const std::vector<double>& intervals) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> unit;
+  std::map<double, Scan> by_time;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const double x = 10000.0 * unit(random);
+    const double y = 10000.0 * unit(random);
+    for (double time = intervals[i] * unit(random); time < 300.0;) {
+      Scan& scan = by_time[std::round(10.0 * time) / 10.0];
+      scan.detections.push_back({.position = {x + 5.0 * time, y}, .label = {}});
+      time += intervals[i] * (0.8 + 0.5 * unit(random));
+    }
+  }
+  std::vector<Scan> scans;
+  for (auto& [time, scan] : by_time) {
+    scan.time = time;
+    scans.push_back(std::move(scan));
+  }
+  return scans;
+}
+
+// Property: where some objects are reported seldom and some often, and now and then two at once, the
+// time lies between those of the slow ones: nobody is missed who is not due.
+TEST(Coverage, SeldomReportsAreWaitedFor) {
+  const auto revisit = revisit_of(ships({2.0, 2.0, 6.0, 6.0, 10.0, 10.0, 10.0}));
+  ASSERT_TRUE(revisit.has_value());
+  EXPECT_GT(*revisit, 6.0);
+  EXPECT_LT(*revisit, 13.0);
+  EXPECT_TRUE(revisit_of(ships({2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0})).has_value());
 }
 
 // Property: one object alone, at rest or on its way, is no turn of several.
