@@ -37,9 +37,8 @@ std::uint64_t key_of(const Vec2& position) {
 }  // namespace
 
 Following::Following(std::size_t objects, const std::optional<FilterTheory>& theory)
-    : objects_(objects) {
-  if (!theory || objects > kMostExpected) return;
-  theory_.emplace(*theory);
+    : objects_(objects), theory_(objects > kMostExpected ? std::nullopt : theory) {
+  if (!theory_) return;
   for (const SensorConfig& sensor : theory_->sensors) {
     errors_.push_back(error_parts(sensor).value_or(std::vector<ErrorPart>{}));
   }
