@@ -14,6 +14,7 @@ namespace {
 constexpr double kMajorSpacing = 105.0;  // [px] between lines with a number, at least
 constexpr int kMinorPerMajor = 5;
 constexpr double kShortestRail = 12.0;  // [px]; a train on less is not on rails worth drawing
+constexpr double kNameLetters = 13.0;   // of sensors
 constexpr double kLongestRail = 1e5;    // [px] of a straight piece that gets ties
 
 /// Metres between major lines of the grid.
@@ -26,6 +27,38 @@ double length_of(const std::vector<Pixel>& points) {
   for (std::size_t i = 1; i < points.size(); ++i)
     length += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
   return length;
+}
+
+/// The name of a field of view, and where it is written.
+struct ViewName {
+  std::u32string text;
+  Pixel pen;
+};
+
+/// At the left end of its upper edge, as far as that is in the picture; several in rows.
+std::vector<ViewName> view_names(const Stage& stage) {
+  const int letters = stage.style.letters(kNameLetters);
+  const Viewport& area = stage.view.viewport();
+  const double left = area.left + stage.style.length(44);
+  const double top = area.top + 1.25 * letters;
+  std::vector<ViewName> names;
+  for (const SensorDrawing& sensor : stage.scene.sensors) {
+    if (sensor.field_of_view.size() < 3) continue;
+    Pixel corner = stage.view.to_pixel(sensor.field_of_view.front());
+    for (const Vec2& place : sensor.field_of_view) {
+      const Pixel at = stage.view.to_pixel(place);
+      if (at.y < corner.y - 0.5 || (at.y < corner.y + 0.5 && at.x < corner.x)) corner = at;
+    }
+    const double row = 1.2 * letters * static_cast<double>(names.size());
+    names.push_back(
+        {U"seen by " + drawable(sensor.name, 24),
+         {std::clamp(corner.x + stage.style.length(5), left,
+                     std::max(left, area.right() - stage.style.length(150))),
+          std::clamp(corner.y + 1.25 * letters, top,
+                     std::max(top, area.bottom() - stage.style.length(40))) +
+              row}});
+  }
+  return names;
 }
 
 class Backdrop {
@@ -72,7 +105,7 @@ class Backdrop {
 
   /// Where sensors stand.
   void sites_of_sensors() {
-    const int letters = style_.letters(13);
+    const int letters = style_.letters(kNameLetters);
     const double bottom = view_.viewport().bottom();
     for (const SensorDrawing& sensor : scene_.sensors) {
       if (!sensor.site || !is_inside(view_.to_pixel(*sensor.site))) continue;
@@ -89,28 +122,9 @@ class Backdrop {
 
   /// Whose field of view is whose.
   void names_of_views() {
-    const int letters = style_.letters(13);
-    const Viewport& area = view_.viewport();
-    double row = 0.0;
-    for (const SensorDrawing& sensor : scene_.sensors) {
-      const std::u32string name = drawable(sensor.name, 24);
-      if (sensor.field_of_view.size() < 3) continue;
-      // At the left end of its upper edge, as far as that is in the picture; several in rows.
-      Pixel corner = view_.to_pixel(sensor.field_of_view.front());
-      for (const Vec2& place : sensor.field_of_view) {
-        const Pixel at = view_.to_pixel(place);
-        if (at.y < corner.y - 0.5 || (at.y < corner.y + 0.5 && at.x < corner.x)) corner = at;
-      }
-      const Pixel pen{
-          std::clamp(corner.x + style_.length(5), area.left + style_.length(44),
-                     std::max(area.left + style_.length(44), area.right() - style_.length(150))),
-          std::clamp(corner.y + 1.25 * letters, area.top + 1.25 * letters,
-                     std::max(area.top + 1.25 * letters, area.bottom() - style_.length(40))) +
-              row};
-      canvas_.rimmed_text(fonts_.regular, U"seen by " + name, letters, pen, theme_.field_of_view,
-                          theme_.world);
-      row += 1.2 * letters;
-    }
+    for (const ViewName& name : view_names(stage_))
+      canvas_.rimmed_text(fonts_.regular, name.text, style_.letters(kNameLetters), name.pen,
+                          theme_.field_of_view, theme_.world);
   }
 
   void edge_of_the_ground() {
@@ -265,6 +279,16 @@ void draw_backdrop(Canvas& canvas, const Stage& stage, AxisNumbers numbers) {
   if (!stage.shows(Layer::kGrid)) return;
   if (numbers == AxisNumbers::kShown) backdrop.numbers();
   backdrop.scale_bar();
+}
+
+std::vector<Viewport> view_name_boxes(const Stage& stage) {
+  const int letters = stage.style.letters(kNameLetters);
+  std::vector<Viewport> boxes;
+  for (const ViewName& name : view_names(stage)) {
+    const double width = stage.fonts.regular.width(name.text, letters);
+    boxes.push_back({name.pen.x, name.pen.y - letters, width, 1.3 * letters});
+  }
+  return boxes;
 }
 
 Viewport scale_bar_box(const Stage& stage) {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kForbidden = std::numeric_limits<double>::infinity();
 constexpr double kBodyCost = 0.7;    // of hiding an object or an estimate
+constexpr double kNameCost = 0.3;    // of hiding the name of a field of view
 constexpr double kTrailCost = 0.05;  // of hiding a piece of a trail
 constexpr std::size_t kCrowd = 60;   // of which labels must not hide anybody
 constexpr double kPlate = 0.62;      // opacity of the ground behind a label
@@ -90,6 +91,9 @@ std::vector<Obstacle> obstacles_of(const Stage& stage, const TrackMemory& memory
   std::vector<Obstacle> obstacles;
   for (const Viewport& area : keep_out) obstacles.push_back({area, kForbidden});
   if (stage.shows(Layer::kGrid)) obstacles.push_back({scale_bar_box(stage), kForbidden});
+  if (stage.shows(Layer::kFieldOfView)) {
+    for (const Viewport& name : view_name_boxes(stage)) obstacles.push_back({name, kNameCost});
+  }
   for (const Caption& caption : captions) {
     const auto& [id, anchor, reach, width, height] = caption.request;
     obstacles.push_back({{anchor.x - reach, anchor.y - reach, 2.0 * reach, 2.0 * reach}, body});
