@@ -25,8 +25,8 @@ std::vector<bool> losers(std::span<const FilterRuns> filters) {
   const FilterRuns& faithful = filters[static_cast<std::size_t>(most - shares.begin())];
   std::vector<bool> loses;
   for (std::size_t i = 0; i < filters.size(); ++i) {
-    const PairedDifference difference = paired_difference(filters[i].followed, faithful.followed,
-                                                          Average::kShare, kConfidence);
+    const PairedDifference difference =
+        paired_difference(filters[i].followed, faithful.followed, Average::kShare, kConfidence);
     loses.push_back(shares[i] < kFollowedEnough * *most && difference.interval &&
                     difference.interval->high < 0.0);
   }

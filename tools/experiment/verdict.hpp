@@ -47,10 +47,10 @@ struct FilterVerdict {
 std::vector<FilterVerdict> judged(Metric metric, std::span<const FilterRuns> filters,
                                   bool may_be_ruined);
 
-/// The mean of a metric over the runs. Errors of trackers that find out for themselves what is whose
-/// have tails that no number of runs within reach shows whole: a track that is dragged along by
-/// clutter, once in hundreds of runs, weighs as much as all others. A mean's interval from a sample
-/// without it would be too narrow: there is none, and the median counts.
+/// The mean of a metric over the runs. Errors of trackers that find out for themselves what is
+/// whose have tails that no number of runs within reach shows whole: a track that is dragged along
+/// by clutter, once in hundreds of runs, weighs as much as all others. A mean's interval from a
+/// sample without it would be too narrow: there is none, and the median counts.
 SampleMean mean_of_metric(Metric metric, std::span<const double> values, bool may_be_ruined);
 
 }  // namespace ghtrack

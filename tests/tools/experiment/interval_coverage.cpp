@@ -1,5 +1,5 @@
-// interval_coverage SCENE [RUNS [KEY=VALUE...]]: how often intervals of campaigns hold what is to be
-// expected, and how often a filter is called the best one of equal ones.
+// interval_coverage SCENE [RUNS [KEY=VALUE...]]: how often intervals of campaigns hold what is to
+// be expected, and how often a filter is called the best one of equal ones.
 //
 // RUNS runs (10 000 unless told) stand for all that may happen: their mean is what is to be
 // expected, and campaigns of 5 to 50 runs are drawn from them. Equal filters are those of the scene
@@ -60,7 +60,9 @@ struct Share {
   double percent() const { return 100.0 * hits / all; }
 };
 
-std::string text(const Share& share) { return share.all ? fmt::format("{:5.1f}", share.percent()) : "    -"; }
+std::string text(const Share& share) {
+  return share.all ? fmt::format("{:5.1f}", share.percent()) : "    -";
+}
 
 /// What is said of one metric of one subject in campaigns of one length.
 struct Outcome {
@@ -112,7 +114,8 @@ Outcome outcome_of(Metric metric, const std::vector<FilterRuns>& filters, std::s
       own_runs.push_back(
           at(filters.front(), drawn(length, campaign + kCampaigns * i, values.size())));
     }
-    outcome.best_of_dealt.add(has_best(metric, dealt(std::move(same_runs), campaign), may_be_ruined));
+    outcome.best_of_dealt.add(
+        has_best(metric, dealt(std::move(same_runs), campaign), may_be_ruined));
     outcome.best_of_own.add(has_best(metric, own_runs, may_be_ruined));
   }
   return outcome;
@@ -139,8 +142,8 @@ int tell(const WorldScene& scene) {
   const Trial trial(scene);
   const bool may_be_ruined = scene.tracker.association != Association::kKnown;
   fmt::print("{} runs, {} campaigns of each length; in %\n", scene.compare.runs, kCampaigns);
-  fmt::print("{:<16}{:<22}{:>5}{:>7}{:>7}{:>7}{:>12}{:>9}\n", "metric", "of", "runs", "told", "holds",
-             "median", "best: dealt", "own runs");
+  fmt::print("{:<16}{:<22}{:>5}{:>7}{:>7}{:>7}{:>12}{:>9}\n", "metric", "of", "runs", "told",
+             "holds", "median", "best: dealt", "own runs");
   int wrong = 0;
   for (std::size_t subject = 0; subject < trial.subjects().size(); ++subject) {
     for (const Metric metric : all_metrics()) {
@@ -175,8 +178,10 @@ int tell(const WorldScene& scene) {
 int main(int argc, char** argv) {
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (arguments.empty()) throw std::invalid_argument("interval_coverage SCENE [RUNS [KEY=VALUE...]]");
-    std::vector<std::string> changes = {"compare.runs=" + (arguments.size() > 1 ? arguments[1] : "10000")};
+    if (arguments.empty())
+      throw std::invalid_argument("interval_coverage SCENE [RUNS [KEY=VALUE...]]");
+    std::vector<std::string> changes = {"compare.runs=" +
+                                        (arguments.size() > 1 ? arguments[1] : "10000")};
     if (arguments.size() > 2) changes.insert(changes.end(), arguments.begin() + 2, arguments.end());
     return ghtrack::tell(std::get<ghtrack::WorldScene>(ghtrack::read_scene(arguments[0], changes)));
   } catch (const std::exception& error) {
