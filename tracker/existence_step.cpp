@@ -185,8 +185,8 @@ Unused update_with_all(const Look& look, const Competition& competition,
 
 }  // namespace
 
-void judge(const ExistenceConfig& config, Track& track, int& next_id) {
-  if (*track.existence < (track.id > 0 ? config.doubt : config.confirm)) {
+void judge(const TrackerConfig& config, Track& track, int& next_id) {
+  if (*track.existence < (track.id > 0 ? config.doubt() : config.existence.confirm)) {
     track.status = TrackStatus::kTentative;
     return;
   }
@@ -222,7 +222,7 @@ void step_by_existence(Look& look, TrackerState& state) {
       decides ? update_with_nearest(look, competition, state)
               : update_with_all(look, competition, tracks, state.log_likelihood);
   keep_if(tracks, [&](std::size_t i) {
-    judge(config.existence, tracks[i], state.next_id);
+    judge(config, tracks[i], state.next_id);
     return *tracks[i].existence >= config.existence.drop && tracks[i].unseen < config.drop_unseen &&
            !is_to_merge(config.merge, tracks[i]);
   });
@@ -235,7 +235,7 @@ void step_by_existence(Look& look, TrackerState& state) {
     track.birth = state.next_birth++;
     track.id = -track.birth;
     track.existence = unused[i] * real;
-    judge(config.existence, track, state.next_id);
+    judge(config, track, state.next_id);
   }
   state.undetected.after_look(evidence, look.scan.sensor);
   look.clock.finished(&StepTimes::begin);

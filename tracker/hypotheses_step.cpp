@@ -534,7 +534,7 @@ class MultiScan {
         Track& track = state_.tracks.emplace_back(target.branches[likeliest.branch_of[t]].track);
         track.birth = target.birth;
         track.id = target.id > 0 ? target.id : -target.birth;
-        judge(look_.config().existence, track, state_.next_id);
+        judge(look_.config(), track, state_.next_id);
         if (track.id > 0) target.id = track.id;
       }
     }

@@ -56,6 +56,6 @@ void keep_if(std::vector<Track>& tracks, Lives&& lives) {
 }
 
 /// Confirms a track by its existence, which gives it its id; says how it stands.
-void judge(const ExistenceConfig& config, Track& track, int& next_id);
+void judge(const TrackerConfig& config, Track& track, int& next_id);
 
 }  // namespace ghtrack

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -116,8 +117,10 @@ struct MergeRule {
 /// What is assumed of targets that come and go, and how sure the tracker must be of one.
 /// Probabilities of existence as in Musicki & Evans 2004 and Williams 2015.
 struct ExistenceConfig {
+  static constexpr double kUsualDoubt = 0.25;
+
   double confirm = 0.5;
-  double doubt = 0.4;
+  std::optional<double> doubt;
   double drop = 2e-4;
   std::optional<double> lifetime;  // mean time that a target stays [s]
   double births = 0.001;
@@ -129,11 +132,14 @@ struct ExistenceConfig {
              .meaning = "a track is said to be real above this probability of existence",
              .above = 0.0,
              .below = 1.0});
-    v.field("doubt", &ExistenceConfig::doubt,
-            {.unit = "1",
-             .meaning = "a track that was said to be real is said to be so no longer below this one",
-             .above = 0.0,
-             .below = 1.0});
+    v.field(
+        "doubt", &ExistenceConfig::doubt,
+        {.unit = "1",
+         .meaning = "a track that was said to be real is said to be so no longer below this one; "
+                    "by default 0.25, and 0.4 with association multi-scan; never above "
+                    "`confirm`",
+         .above = 0.0,
+         .below = 1.0});
     v.field("drop", &ExistenceConfig::drop,
             {.unit = "1",
              .meaning = "a track is given up below this probability",
@@ -153,8 +159,10 @@ struct ExistenceConfig {
 
   template <class Report>
   void check(Report&& report) const {
-    if (doubt > confirm) report("doubt", "must not be above 'confirm'");
-    if (drop >= doubt) report("drop", "must be below 'doubt'");
+    if (doubt && *doubt > confirm) report("doubt", "must not be above 'confirm'");
+    if (drop >= doubt.value_or(std::min(confirm, kUsualDoubt))) {
+      report("drop", "must be below 'doubt'");
+    }
   }
 };
 
@@ -232,6 +240,13 @@ struct TrackerConfig {
   LifeCycle lives_by() const {
     const bool has_rule = confirm || drop_tentative || drop_confirmed;
     return life_cycle.value_or(has_rule ? LifeCycle::kCounts : LifeCycle::kExistence);
+  }
+  /// What is given, or what suits the association: where several hypotheses remember a target, the
+  /// best of them is believed from 0.4 on (García-Fernández, Williams, Granström & Svensson 2018).
+  double doubt() const {
+    const double usual =
+        association == Association::kMultiScan ? 0.4 : ExistenceConfig::kUsualDoubt;
+    return existence.doubt.value_or(std::min(existence.confirm, usual));
   }
   HitRule confirm_rule() const { return confirm.value_or(HitRule{}); }
   MissRule drop_tentative_rule() const {
