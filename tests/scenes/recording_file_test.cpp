@@ -1,34 +1,27 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <variant>
 
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/reader.hpp"
 #include "scenes/schema/writer.hpp"
+#include "tests/tools/record/scratch_folder.hpp"
 
 namespace ghtrack {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A folder with a table, and a scene that asks for it.
 class RecordingFile : public testing::Test {
  protected:
-  RecordingFile() : folder_(fs::path(testing::TempDir()) / "ghtrack-recording") {
-    fs::create_directories(folder_);
-  }
-  ~RecordingFile() override { fs::remove_all(folder_); }
-
   Scene read(const std::string& table, const std::string& id = {}) const {
-    std::ofstream(folder_ / "walk.csv", std::ios::binary) << table;
+    folder_.write("walk.csv", table);
     const std::string recording =
         "{file: walk.csv" + (id.empty() ? "" : ", id: " + id) + "}";
     return read_scene_text("name: demo\ntargets: [{name: a, recording: " + recording +
                                "}]\nsensors: [{name: camera}]\n",
-                           (folder_ / "scene.yaml").string());
+                           (folder_.path() / "scene.yaml").string());
   }
 
   std::string refusal(const std::string& table, const std::string& id = {}) const {
@@ -36,7 +29,7 @@ class RecordingFile : public testing::Test {
       read(table, id);
     } catch (const SceneError& error) {
       const std::string text = error.what();
-      const std::string prefix = folder_.string() + "/";
+      const std::string prefix = folder_.path().string() + "/";
       return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
     }
     return "no error";
@@ -46,7 +39,7 @@ class RecordingFile : public testing::Test {
     return std::get<Recording>(std::get<WorldScene>(scene).targets.at(0).motion);
   }
 
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 // Property: columns are found by name, among others and in any order, in tables of any program; the
@@ -60,7 +53,7 @@ TEST_F(RecordingFile, IsReadByTheNamesOfItsColumns) {
   EXPECT_EQ(recording.places[1].x, -3.0);
   EXPECT_EQ(recording.places[1].y, 4.5);
   EXPECT_TRUE(recording.file.empty());
-  fs::remove(folder_ / "walk.csv");
+  std::filesystem::remove(folder_.path() / "walk.csv");
   const Scene again = read_scene_text(write_scene(scene), "elsewhere.yaml");
   EXPECT_EQ(recording_of(again).places.size(), 2u);
 }
