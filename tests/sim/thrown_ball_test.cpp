@@ -8,6 +8,7 @@
 #include "sim/portable_math.hpp"
 #include "sim/world.hpp"
 #include "tests/sim/scenario.hpp"
+#include "tests/effort.hpp"
 
 namespace ghtrack {
 namespace {
@@ -216,8 +217,9 @@ TEST(ThrownBall, DoesNotPassThroughAWall) {
 // Property: a ball in a corner, on the end of a wall or in a funnel loses its energy and stays out
 // of everything solid; nothing takes for ever.
 TEST(ThrownBall, SurvivesCornersAndEnds) {
-  for (int i = 0; i < 50; ++i) {
-    ThrownBall ball = plain_ball(Vec2(-1.0 + 0.04 * i, 3.0), Vec2(0.3, 0.0));
+  constexpr int kBalls = testing::samples(50);
+  for (int i = 0; i < kBalls; ++i) {
+    ThrownBall ball = plain_ball(Vec2(-1.0 + 2.0 * i / kBalls, 3.0), Vec2(0.3, 0.0));
     WorldConfig config = world_of({target_of(ball)});
     config.environment.ground = Ground{};
     config.environment.walls = {Wall{Vec2(-1.2, 2.0), Vec2(-0.05, 1.0), {}, {}},

@@ -71,5 +71,11 @@ function(ghtrack_add_test name)
   target_compile_definitions(${target} PRIVATE GHTRACK_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${arg_DEFINITIONS})
   target_precompile_headers(${target} REUSE_FROM ghtrack_test_headers)
   ghtrack_compile_quickly(TARGETS ${target})
-  gtest_discover_tests(${target} NO_PRETTY_VALUES NO_PRETTY_TYPES PROPERTIES LABELS ${name} TIMEOUT 300 DISCOVERY_TIMEOUT 60)
+  # A test of half a minute takes ten times as long with the sanitizers.
+  set(timeout 300)
+  if(CMAKE_CXX_FLAGS MATCHES "sanitize=")
+    set(timeout 900)
+  endif()
+  gtest_discover_tests(${target} NO_PRETTY_VALUES NO_PRETTY_TYPES
+                       PROPERTIES LABELS ${name} TIMEOUT ${timeout} DISCOVERY_TIMEOUT 60)
 endfunction()

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/tracker/filters/effort.hpp"
+#include "tests/effort.hpp"
 #include "tracker/filters/filter.hpp"
 
 namespace ghtrack {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/tracker/filters/effort.hpp"
+#include "tests/effort.hpp"
 #include "tests/tracker/filters/random_gains.hpp"
 #include "tracker/filters/batch.hpp"
 #include "tracker/filters/gain_filter.hpp"
