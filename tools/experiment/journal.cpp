@@ -195,7 +195,8 @@ bool take_record(JournalInput& input, Record& record) {
   record.cell = number_at(all, 0);
   record.run = number_at(all, 1);
   record.scores.resize(count);
-  std::memcpy(record.scores.data(), all.data() + front.size(), count * sizeof(double));
+  std::copy_n(all.data() + front.size(), count * sizeof(double),
+              reinterpret_cast<char*>(record.scores.data()));
   input.skip(all.size());
   return true;
 }
