@@ -24,6 +24,6 @@ def printed(notebook):
 def test_a_notebook_runs_and_its_outputs_are_current(name):
     notebook = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
     stored = printed(notebook)
-    ExecutePreprocessor(timeout=120).preprocess(notebook, {"metadata": {"path": str(FOLDER)}})
+    ExecutePreprocessor(timeout=600).preprocess(notebook, {"metadata": {"path": str(FOLDER)}})
     assert printed(notebook) == stored
     assert sum(len(str(cell.get("outputs", ""))) for cell in notebook.cells) < 300_000
