@@ -64,6 +64,14 @@ def _kept(path):
     return contextlib.nullcontext(path)
 
 
+def _place(path, name):
+    """Where a result goes: the path that was given, or a folder of its own and what keeps it."""
+    if path:
+        return pathlib.Path(path), None
+    keeper = tempfile.TemporaryDirectory(prefix="ghtrack-")
+    return pathlib.Path(keeper.name) / name, keeper
+
+
 def load_scene(source):
     """A scene from a path, from YAML text, or from a dict of the same shape.
 
@@ -151,8 +159,7 @@ class Run:
     @property
     def folder(self):
         if self._folder is None:
-            self._keeper = tempfile.TemporaryDirectory(prefix="ghtrack-")
-            self._folder = pathlib.Path(self._keeper.name) / "run"
+            self._folder, self._keeper = _place(None, "run")
             _run_program(self.scene, self._folder, self._options)
         return self._folder
 
@@ -210,8 +217,7 @@ def run(scene, filters=None, seed=None, duration=None, set=None, folder=None):
         if done is not None:
             summary, metrics = done.pop("summary"), json.loads(done.pop("metrics"))
             return Run(scene, options, summary, {**_tables(done), "metrics.json": metrics})
-    keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
-    folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "run")
+    folder, keeper = _place(folder, "run")
     return Run(scene, options, _run_program(scene, folder, options), {}, folder, keeper)
 
 
@@ -258,6 +264,13 @@ class Picture:
         return f"<Picture {self.path.name}, {self.path.stat().st_size} bytes>"
 
 
+def _scene_and_options(run_or_scene):
+    """A scene, and the options that a run of it had."""
+    if isinstance(run_or_scene, Run):
+        return run_or_scene.scene, run_or_scene._options
+    return load_scene(run_or_scene), {}
+
+
 def render(run_or_scene, path=None, **options):
     """The annotated video of a run or scene, as `ghtrack video` makes it.
 
@@ -269,11 +282,8 @@ def render(run_or_scene, path=None, **options):
 
     Returns a Picture.
     """
-    of_run = isinstance(run_or_scene, Run)
-    scene = run_or_scene.scene if of_run else load_scene(run_or_scene)
-    keeper = None if path else tempfile.TemporaryDirectory(prefix="ghtrack-")
-    path = pathlib.Path(path or pathlib.Path(keeper.name) / "picture.png")
-    base = run_or_scene._options if of_run else {}
+    scene, base = _scene_and_options(run_or_scene)
+    path, keeper = _place(path, "picture.png")
     with scene._as_file() as file:
         call("--quiet", "video", file, "-o", path, *option_list({**base, **options}))
     return Picture(path, keeper)
@@ -290,8 +300,7 @@ def plot(source, path=None, **options):
 
     Returns a Picture.
     """
-    keeper = None if path else tempfile.TemporaryDirectory(prefix="ghtrack-")
-    path = pathlib.Path(path or pathlib.Path(keeper.name) / "plot.png")
+    path, keeper = _place(path, "plot.png")
     if isinstance(source, Run):
         source = source.folder
     with _input(source, ("t", "x", "y")) as given:
@@ -323,14 +332,11 @@ def view(run_or_scene, path=None, **options):
 
     Returns a Page.
     """
-    of_run = isinstance(run_or_scene, Run)
-    scene = run_or_scene.scene if of_run else load_scene(run_or_scene)
-    keeper = None if path else tempfile.TemporaryDirectory(prefix="ghtrack-")
-    path = pathlib.Path(path or pathlib.Path(keeper.name) / "page.html").absolute()
-    base = run_or_scene._options if of_run else {}
+    scene, base = _scene_and_options(run_or_scene)
+    path, keeper = _place(path, "page.html")
     words = option_list({**base, **options})
     with scene._as_file() as file:  # the page names it
-        call("--quiet", "view", file.name, "--no-open", "-o", path, *words, folder=file.parent)
+        call("--quiet", "view", file.name, "--no-open", "-o", path.absolute(), *words, folder=file.parent)
     return Page(path, keeper)
 
 
@@ -406,7 +412,21 @@ def score(truth, tracks, **options):
         )
 
 
-class Comparison:
+class _Reported:
+    """Results in a folder, with what the program prints of them and a page."""
+
+    def __init__(self, folder, summary, keeper):
+        self.folder, self.summary, self._keeper = pathlib.Path(folder), summary, keeper
+        self.report = self.folder / "report.html"
+
+    def __repr__(self):
+        return self.summary
+
+    def _repr_html_(self):
+        return Page(self.report)._repr_html_()
+
+
+class Comparison(_Reported):
     """The results of a comparison.
 
     Attributes
@@ -416,16 +436,10 @@ class Comparison:
     """
 
     def __init__(self, folder, summary, keeper):
-        self.folder, self.summary, self._keeper = pathlib.Path(folder), summary, keeper
-        self.report, self._contents = self.folder / "report.html", {}
+        super().__init__(folder, summary, keeper)
+        self._contents = {}
 
     table = _file_property("comparison.csv", Table.from_csv)
-
-    def __repr__(self):
-        return self.summary
-
-    def _repr_html_(self):
-        return Page(self.report)._repr_html_()
 
 
 def compare(scenes, filters=None, folder=None, **options):
@@ -441,8 +455,7 @@ def compare(scenes, filters=None, folder=None, **options):
     """
     several = isinstance(scenes, (list, tuple))
     loaded = [load_scene(scene) for scene in (scenes if several else [scenes])]
-    keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
-    folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "comparison")
+    folder, keeper = _place(folder, "comparison")
     with contextlib.ExitStack() as files:
         paths = [files.enter_context(scene._as_file()) for scene in loaded]
         if filters:
@@ -452,7 +465,7 @@ def compare(scenes, filters=None, folder=None, **options):
     return Comparison(folder, summary, keeper)
 
 
-class Tuning(dict):
+class Tuning(_Reported, dict):
     """The content of tuning.json.
 
     Attributes
@@ -463,15 +476,8 @@ class Tuning(dict):
     """
 
     def __init__(self, folder, summary, keeper):
-        self.folder, self.summary, self._keeper = pathlib.Path(folder), summary, keeper
-        self.report = self.folder / "report.html"
-        super().__init__(json.loads((self.folder / "tuning.json").read_text(encoding="utf-8")))
-
-    def __repr__(self):
-        return self.summary
-
-    def _repr_html_(self):
-        return Page(self.report)._repr_html_()
+        _Reported.__init__(self, folder, summary, keeper)
+        dict.__init__(self, json.loads((self.folder / "tuning.json").read_text(encoding="utf-8")))
 
 
 def tune(scene, folder=None, **options):
@@ -486,8 +492,7 @@ def tune(scene, folder=None, **options):
     Returns a Tuning, which is a dict.
     """
     scene = load_scene(scene)
-    keeper = None if folder else tempfile.TemporaryDirectory(prefix="ghtrack-")
-    folder = pathlib.Path(folder or pathlib.Path(keeper.name) / "tuning")
+    folder, keeper = _place(folder, "tuning")
     with scene._as_file() as path:
         summary = call("--quiet", "tune", path, "-o", folder, *option_list(options))
     return Tuning(folder, summary, keeper)
