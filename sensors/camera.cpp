@@ -25,8 +25,8 @@ struct Axes {
 };
 
 Axes axes_of(const Pinhole& pinhole) {
-  const portable::SinCos pan = portable::sin_cos(pinhole.pan_deg * kRadiansPerDegree);
-  const portable::SinCos tilt = portable::sin_cos(pinhole.tilt_deg * kRadiansPerDegree);
+  const portable::SinCos pan = portable::sin_cos(pinhole.pan_deg * portable::kDegree);
+  const portable::SinCos tilt = portable::sin_cos(pinhole.tilt_deg * portable::kDegree);
   const Eigen::Vector3d forward(pan.sin * tilt.cos, tilt.sin, -pan.cos * tilt.cos);
   const Eigen::Vector3d right(pan.cos, 0.0, pan.sin);
   return {forward, right, right.cross(forward)};

@@ -34,15 +34,15 @@ Detection to_cartesian(const PolarMeasurement& measured, const PolarNoise& noise
   return detection;
 }
 
-PolarNoise Radar::noise() const { return {sigma_range, sigma_bearing_deg * kRadiansPerDegree}; }
+PolarNoise Radar::noise() const { return {sigma_range, sigma_bearing_deg * portable::kDegree}; }
 
 FieldOfView Radar::view(const Vec2& site) const {
   Sector sector{.site = site, .max_range = max_range};
   if (!sector_deg) return sector;
-  sector.half_width = 0.5 * (sector_deg->y() - sector_deg->x()) * kRadiansPerDegree;
+  sector.half_width = 0.5 * (sector_deg->y() - sector_deg->x()) * portable::kDegree;
   sector.cos_half_width = portable::sin_cos(sector.half_width).cos;
   sector.axis =
-      turned(Vec2::UnitX(), 0.5 * (sector_deg->x() + sector_deg->y()) * kRadiansPerDegree);
+      turned(Vec2::UnitX(), 0.5 * (sector_deg->x() + sector_deg->y()) * portable::kDegree);
   return sector;
 }
 
@@ -55,7 +55,7 @@ std::optional<Detection> Radar::measure(const Vec2& truth, const Vec2& site,
   const PolarMeasurement measured{
       .range = range + bias_range + sigma.range * error.x(),
       .direction =
-          turned(offset / range, bias_bearing_deg * kRadiansPerDegree + sigma.bearing * error.y())};
+          turned(offset / range, bias_bearing_deg * portable::kDegree + sigma.bearing * error.y())};
   Detection detection = to_cartesian(measured, sigma);
   detection.position += site;
   detection.measured = as_measured(measured, sigma, site);

@@ -7,8 +7,6 @@
 
 namespace ghtrack {
 
-inline constexpr double kRadiansPerDegree = portable::kPi / 180.0;
-
 /// A vector turned by an angle [rad], counter-clockwise.
 Eigen::Vector2d turned(const Eigen::Vector2d& vector, double angle);
 

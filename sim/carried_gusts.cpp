@@ -12,8 +12,6 @@ namespace {
 constexpr double kReach = 1e5;                // places up to so far downwind have a past [m]
 constexpr std::size_t kMostBlocks = 20'000;   // about 20 MB
 
-double smooth_step(double x) { return x * x * x * (10.0 - x * (15.0 - 6.0 * x)); }
-
 std::uint64_t key_of_line(std::size_t axis, std::int64_t node) {
   return combine(combine(key_of("carried"), axis), static_cast<std::uint64_t>(node));
 }
@@ -38,7 +36,8 @@ Vec2 CarriedGusts::at(const Vec2& position, double time) {
   for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
     const double place = across / axes_[axis].coherence;
     const double node = std::floor(place);
-    const portable::SinCos share = portable::sin_cos_of_turns(0.25 * smooth_step(place - node));
+    const portable::SinCos share =
+        portable::sin_cos_of_turns(0.25 * portable::smooth_step(place - node));
     const std::array<double, 2> weights{share.cos, share.sin};
     for (std::size_t i = 0; i < 2; ++i) {
       if (weights[i] == 0.0) continue;

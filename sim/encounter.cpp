@@ -339,7 +339,7 @@ class Encounter {
     }
     const double push = (1.0 + restitution_of(pair)) * approach / inverse_mass;
     const double grip =
-        -sign(slip) * std::min(friction_of(pair) * push, std::abs(slip) / slip_mass);
+        -portable::sign(slip) * std::min(friction_of(pair) * push, std::abs(slip) / slip_mass);
     const Vec2 impulse = push * there.normal + grip * tangent;
     const auto apply = [&](FlightState& state, const RoundBody& body, const Vec2& received) {
       state.velocity += received / body.mass;
@@ -441,7 +441,7 @@ class Encounter {
       if (!involved[at(i)]) continue;
       heap.place[at(i)] = static_cast<int>(heap.bodies.size());
       heap.bodies.push_back(i);
-      heap.turning.push_back(sign(flight(now, i)->spin));
+      heap.turning.push_back(portable::sign(flight(now, i)->spin));
     }
     heap.touches.resize(heap.pairs.size());
     return heap;

@@ -10,6 +10,11 @@
 namespace ghtrack::portable {
 
 inline constexpr double kPi = 3.141592653589793;
+inline constexpr double kDegree = kPi / 180.0;  // [rad]
+
+inline double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
+/// From 0 at x = 0 to 1 at x = 1, with rate and curvature 0 at both (Perlin 2002).
+inline double smooth_step(double x) { return x * x * x * (10.0 - x * (15.0 - 6.0 * x)); }
 
 struct SinCos {
   double sin;

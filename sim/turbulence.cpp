@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t kMaxNodes = 50'000;  // about 220 MB
 
-double smooth_step(double x) { return x * x * x * (10.0 - x * (15.0 - 6.0 * x)); }
-
 std::uint64_t key_of_node(std::int64_t column, std::int64_t row) {
   return static_cast<std::uint64_t>(column) * 0x9e3779b97f4a7c15 ^
          static_cast<std::uint64_t>(row) * 0xc2b2ae3d27d4eb4f;
@@ -86,8 +84,9 @@ Vec2 Turbulence::at(const Vec2& position, double time) {
   const double y = position.y() / spacing_;
   const double column = std::floor(x);
   const double row = std::floor(y);
-  const portable::SinCos across = portable::sin_cos_of_turns(0.25 * smooth_step(x - column));
-  const portable::SinCos up = portable::sin_cos_of_turns(0.25 * smooth_step(y - row));
+  const portable::SinCos across =
+      portable::sin_cos_of_turns(0.25 * portable::smooth_step(x - column));
+  const portable::SinCos up = portable::sin_cos_of_turns(0.25 * portable::smooth_step(y - row));
   const std::array<double, 2> column_weights{across.cos, across.sin};
   const std::array<double, 2> row_weights{up.cos, up.sin};
 

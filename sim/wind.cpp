@@ -9,7 +9,6 @@ namespace ghtrack {
 namespace {
 
 constexpr double kBoundaryLayer = 1000.0;  // its depth [m]
-constexpr double kDegree = portable::kPi / 180.0;
 
 double speed_at(const LogarithmicShear& shear, double height) {
   if (height <= shear.roughness) return 0.0;
@@ -46,7 +45,7 @@ Vec2 whirl_at(const HollandVortex& vortex, const Vec2& position, double time) {
   const double cyclostrophic =
       q > 700.0 ? 0.0 : vortex.max_speed * vortex.max_speed * q * portable::exp(1.0 - q);
   const double speed = std::sqrt(cyclostrophic + rotation * rotation) - rotation;
-  const portable::SinCos inflow = portable::sin_cos(vortex.inflow_deg * kDegree);
+  const portable::SinCos inflow = portable::sin_cos(vortex.inflow_deg * portable::kDegree);
   const Vec2 outwards = radius / r;
   const Vec2 around(-outwards.y(), outwards.x());
   return vortex.velocity + speed * (inflow.cos * around - inflow.sin * outwards);

@@ -13,11 +13,11 @@
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/document.hpp"
 #include "scenes/schema/number_text.hpp"
+#include "scenes/schema/source_text.hpp"
 
 namespace ghtrack::schema {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kMostRows = 1'000'000;
 constexpr double kLongestTime = 1e10;  // [s], as RecordedPlace allows
 constexpr double kFarthest = 1e6;      // [m], the same

@@ -9,8 +9,6 @@
 namespace ghtrack::schema {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 /// Text in a wider encoding has zero bytes among its first four.
 bool looks_like_utf16_or_32(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;

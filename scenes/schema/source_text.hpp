@@ -9,6 +9,8 @@
 
 namespace ghtrack::schema {
 
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// The text of a document and its lines, for finding where things stand.
 class SourceText {
  public:

@@ -135,7 +135,7 @@ FlightRate supported_rate(const FlightState& state, const FlightRate& free, cons
     const double held = dissipative(-(along + slipping), grip, noticeable(rim));
     const double torque = free.spin + held / (body.inertia * body.radius);
     if (std::abs(torque) <= couple) return {(along + held) * tangent - inwards * normal, 0.0};
-    spin -= sign(torque) * couple;
+    spin -= portable::sign(torque) * couple;
   } else if (rolling > 0.0) {
     spin -= turning * couple;
   }
@@ -168,7 +168,7 @@ void leave_supports(FlightState& state, const FlightRate& free, const RoundBody&
   if (state.second_support >= 0 && left(state.second_support)) forget_second(state);
   if (state.support >= 0 && left(state.support)) forget_first(state);
   if (state.second_support >= 0) {
-    const Cornered cornered = corner(state, free, body, surfaces, sign(state.spin));
+    const Cornered cornered = corner(state, free, body, surfaces, portable::sign(state.spin));
     const bool first_presses = cornered.touches[0].push > 0.0;
     const bool second_presses = cornered.touches[1].push > 0.0;
     if (!second_presses) forget_second(state);
@@ -269,7 +269,7 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
       const double slipping = slip(state, body, tangent);
       const double normal_impulse = (1.0 + restitution) * approach;
       const double grip =
-          -sign(slipping) *
+          -portable::sign(slipping) *
           std::min(friction * normal_impulse, std::abs(slipping) / (1.0 + 1.0 / body.inertia));
       const Vec2 change = normal_impulse * contact.normal + grip * tangent;
       state.velocity += change;
@@ -309,7 +309,7 @@ PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
   FlightState now = state;
   if (now.support >= 0) leave_supports(now, free, body, surfaces);
   if (now.support < 0) return {now.position, now.velocity, free.acceleration};
-  const FlightRate rate = supported_rate(now, free, body, surfaces, sign(now.spin));
+  const FlightRate rate = supported_rate(now, free, body, surfaces, portable::sign(now.spin));
   return {now.position, now.velocity, rate.acceleration};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/environment.hpp"
+#include "sim/portable_math.hpp"
 #include "sim/regimes/motion.hpp"
 #include "sim/surface.hpp"
 #include "sim/truth.hpp"
@@ -145,8 +146,6 @@ void describe_bounce(Visitor& v) {
            .maximum = 1.0});
 }
 
-inline double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
-
 /// One Runge–Kutta step of fourth order. Rates: FlightRate(const FlightState&, double time).
 template <class Rates>
 FlightState runge_kutta(const FlightState& state, double time, double step, const Rates& rates) {
@@ -236,7 +235,7 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
   int changes = 0;
   for (int impacts = 0; time < to;) {
     if (state.support >= 0) leave_supports(state, rates(state, time), body, surfaces);
-    const double turning = sign(state.spin);
+    const double turning = portable::sign(state.spin);
     const auto rates_here = [&](const FlightState& s, double t) {
       const FlightRate free = rates(s, t);
       if (s.support < 0) return free;

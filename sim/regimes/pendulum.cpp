@@ -7,8 +7,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kDegree = portable::kPi / 180.0;
-
 // The method takes (ω h)⁶/144 of an amplitude in a step: with ω h at most this, energy stays the
 // same to 1e-9 for hours.
 constexpr double kMostPhase = 0.006;
@@ -26,11 +24,11 @@ Vec2 along_circle(double angle) {
 }  // namespace
 
 void Pendulum::hasten(const Vec2& by) {
-  rate_deg += by.dot(along_circle(angle_deg * kDegree)) / length / kDegree;
+  rate_deg += by.dot(along_circle(angle_deg * portable::kDegree)) / length / portable::kDegree;
 }
 
 PendulumModel::State PendulumModel::start(const Environment&, double) const {
-  return {pendulum_.angle_deg * kDegree, pendulum_.rate_deg * kDegree};
+  return {pendulum_.angle_deg * portable::kDegree, pendulum_.rate_deg * portable::kDegree};
 }
 
 double PendulumModel::angular_acceleration(const State& state,

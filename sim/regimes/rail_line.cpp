@@ -9,8 +9,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kDegree = portable::kPi / 180.0;
-
 }  // namespace
 
 // That of the chord of an arc, else Gauss–Legendre with five points on parts that turn by less than
@@ -57,7 +55,7 @@ RailLine::RailLine(const std::vector<TrackElement>& elements, const Vec2& origin
       curvature = end;
     }
     if (const auto* curve = std::get_if<Curve>(&element)) {
-      const double angle = curve->angle_deg.value_or(0.0) * kDegree;
+      const double angle = curve->angle_deg.value_or(0.0) * portable::kDegree;
       const double length = curve->length.value_or(std::abs(angle * curve->radius));
       const double end = std::copysign(1.0, angle) / curve->radius;
       if (curve->transition > 0.0) append(curve->transition, curvature, end);

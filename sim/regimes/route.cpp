@@ -11,8 +11,8 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kDegree = portable::kPi / 180.0;
-constexpr double kSameCourse = 0.1 * kDegree;  // a smaller bend after a turn is a rounded place
+constexpr double kSameCourse =
+    0.1 * portable::kDegree;  // a smaller bend after a turn is a rounded place
 
 Vec2 unit(double heading) {
   const portable::SinCos direction = portable::sin_cos(heading);
@@ -34,7 +34,7 @@ class Planner {
   explicit Planner(const Route& route) : route_(route) {
     find_speeds();
     place_ = route.position;
-    heading_ = route.heading_deg * kDegree;
+    heading_ = route.heading_deg * portable::kDegree;
     for (std::size_t i = 0; i < legs_.size(); ++i) lay(i);
     const double last = legs_.empty() ? route.speed : leaving_.back();
     append({end_, place_, heading_, 0.0, last, 0.0}, 0.0);
@@ -169,9 +169,9 @@ class Planner {
 
   void lay_turn(std::size_t leg, const Turn& turn) {
     const double speed = std::max(speeds_[leg], 1e-9);
-    const double angle = turn.angle_deg * kDegree;
+    const double angle = turn.angle_deg * portable::kDegree;
     double radius = turn.radius.value_or(1.0);
-    if (turn.rate_deg) radius = speed / (*turn.rate_deg * kDegree);
+    if (turn.rate_deg) radius = speed / (*turn.rate_deg * portable::kDegree);
     if (turn.acceleration) radius = speed * speed / *turn.acceleration;
     const double length = radius * std::abs(angle);
     const double curvature = std::copysign(1.0 / radius, angle);
@@ -305,7 +305,7 @@ void Route::shift(const Vec2& by) {
 }
 
 void Route::hasten(const Vec2& by) {
-  Vec2 forwards = unit(heading_deg * kDegree);
+  Vec2 forwards = unit(heading_deg * portable::kDegree);
   if (!legs.empty()) {
     const auto* const go_to = std::get_if<GoTo>(&legs[0].course);
     const Vec2 way = go_to != nullptr ? Vec2(go_to->place - position) : forwards;

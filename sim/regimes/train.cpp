@@ -16,8 +16,6 @@ constexpr double kDriverTime = 2.0;      // in which a driver makes up a differe
 constexpr double kStationBraking = 0.9;  // part of the service brake that a driver plans with
 constexpr double kStopped = 0.5;         // who stands no farther beyond a stop has kept it [m]
 
-double sign(double x) { return static_cast<double>((x > 0.0) - (x < 0.0)); }
-
 /// Of steel wheels on dry rails (Curtius & Kniffler 1944).
 double dry_adhesion(double speed) { return 7.5 / (3.6 * std::abs(speed) + 44.0) + 0.161; }
 
@@ -248,7 +246,7 @@ double TrainModel::hindered(double active, double passive, double direction, dou
 TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, double active,
                                           double passive, double inertia) const {
   const double acceleration = *wanted.acceleration;
-  const double direction = speed != 0.0 ? sign(speed) : sign(acceleration);
+  const double direction = speed != 0.0 ? portable::sign(speed) : portable::sign(acceleration);
   const double needed = inertia * acceleration + direction * passive - active;
   if (needed * direction < 0.0) {
     return {.braking = std::min(std::abs(needed) / inertia, train_.emergency_brake)};
@@ -381,7 +379,7 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
 
 std::vector<double> TrainModel::directions_of(const State& state) {
   std::vector<double> directions;
-  for (const double speed : state.speed) directions.push_back(sign(speed));
+  for (const double speed : state.speed) directions.push_back(portable::sign(speed));
   return directions;
 }
 

@@ -123,7 +123,7 @@ std::vector<std::string> forbidden_includes(const fs::path& root, const std::str
 // Property: holds for every source file of the project.
 TEST(Layers, NoFolderIncludesWhatItMustNotKnow) {
   for (const char* folder : {"sim", "sensors", "tracker", "scenes", "tools"}) {
-    EXPECT_THAT(forbidden_includes(GHTRACK_SOURCE_DIR, folder), testing::IsEmpty());
+    EXPECT_THAT(forbidden_includes(GHTRACK_SOURCE_DIR, folder), ::testing::IsEmpty());
   }
 }
 
@@ -148,9 +148,9 @@ std::vector<std::string> files_with(const fs::path& root, const std::string& fol
 // for known association; a tracker has no way of being told.
 TEST(Layers, TheTrackerIsNeverToldWhoMadeADetection) {
   const std::regex origin(R"(\borigins?\b|\bidentit|\bObjectId\b|\bObservation\b)");
-  EXPECT_THAT(files_with(GHTRACK_SOURCE_DIR, "tracker", origin), testing::IsEmpty());
+  EXPECT_THAT(files_with(GHTRACK_SOURCE_DIR, "tracker", origin), ::testing::IsEmpty());
   EXPECT_THAT(files_with(GHTRACK_SOURCE_DIR, "tools/run", std::regex(R"(\borigins\b)")),
-              testing::ElementsAre("tools/run/known_association.cpp"));
+              ::testing::ElementsAre("tools/run/known_association.cpp"));
 }
 
 // Derived: the rules themselves, on made-up includes.

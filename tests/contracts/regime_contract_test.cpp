@@ -45,7 +45,7 @@ struct KeyList {
 };
 
 template <class R>
-class RegimeContract : public testing::Test {};
+class RegimeContract : public ::testing::Test {};
 
 template <class Variant>
 struct AsTypes;

@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr const char* kScene = R"(
+constexpr const char* kFlyBall = R"(
 name: fly ball
 seed: 5
 duration: 3
@@ -50,7 +50,7 @@ bool has(const std::string& program) {
 
 class Compare : public ::testing::Test {
  protected:
-  Compare() { write(folder() / "scene.yaml", kScene); }
+  Compare() { write(folder() / "scene.yaml", kFlyBall); }
 
   const fs::path& folder() const { return folder_.path(); }
   Outcome run(const std::string& command) const { return shell(command, folder()); }
@@ -375,7 +375,7 @@ TEST_F(Compare, TunesGainsAndWritesThem) {
 // Property: filters that are tuned first are tuned once and alike, whoever computes which runs, and an
 // interrupted comparison goes on with those that it had found.
 TEST_F(Compare, TunesAlikeHoweverTheRunsAreDealtOut) {
-  std::string text = kScene;
+  std::string text = kFlyBall;
   text.replace(text.find("  filters:"), 10, "  tuned: [gh, kalman]\n  filters:");
   write(folder() / "tuned.yaml", text);
   compare_unbroken("tuned.yaml");

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
 
-const std::string kScene = "'" + scene_file("three_regimes.yaml").string() + "'";
+const std::string kQuotedScene = "'" + scene_file("three_regimes.yaml").string() + "'";
 
 /// So many detections at one instant, in one square metre, again and again.
 void write_crowd(const fs::path& file, int points, int scans) {
@@ -64,13 +64,16 @@ INSTANTIATE_TEST_SUITE_P(
         Lasting{"TrackFromAPipe", "mkfifo pipe; exec 8<>pipe; ", "ghtrack track - -o t.csv <pipe"},
         Lasting{"TrackIntoAFifo", "mkfifo pipe; ", "ghtrack track crowd.csv -o pipe"},
         Lasting{"TrackACrowd", "", "ghtrack track crowd.csv -o t.csv"},
-        Lasting{"ScoreACrowd", "awk -F, -v OFS=, '{ $1 = $1 OFS (NR == 1 ? \"truth_id\" : NR % 3000) } 1' crowd.csv >a; "
-                               "sed '1s/truth_id/track_id/' a >b; ",
+        Lasting{"ScoreACrowd",
+                "awk -F, -v OFS=, '{ $1 = $1 OFS (NR == 1 ? \"truth_id\" : NR % 3000) } 1' "
+                "crowd.csv >a; "
+                "sed '1s/truth_id/track_id/' a >b; ",
                 "ghtrack score --truth a --tracks b"},
-        Lasting{"RunAnHour", "", "ghtrack run " + kScene + " --duration 20000 --no-video -o r"},
-        Lasting{"Video", "", "ghtrack video " + kScene + " -o v.mp4 --slow 50"},
-        Lasting{"Compare", "", "ghtrack compare " + kScene + " --runs 5000 -o c"},
-        Lasting{"Tune", "", "ghtrack tune " + kScene + " --runs 500"}),
+        Lasting{"RunAnHour", "",
+                "ghtrack run " + kQuotedScene + " --duration 20000 --no-video -o r"},
+        Lasting{"Video", "", "ghtrack video " + kQuotedScene + " -o v.mp4 --slow 50"},
+        Lasting{"Compare", "", "ghtrack compare " + kQuotedScene + " --runs 5000 -o c"},
+        Lasting{"Tune", "", "ghtrack tune " + kQuotedScene + " --runs 500"}),
     [](const auto& one) { return one.param.name; });
 
 // Derived: a pipe among the parts of a campaign is no part, and nobody waits for it.
@@ -85,7 +88,7 @@ TEST(Merge, WaitsForNoPipe) {
 // Property: while a run writes into a folder no other one does; the folder then holds one result.
 TEST(TwoProcesses, NeverMixTheirFiles) {
   const TemporaryFolder folder;
-  const std::string run = "ghtrack run " + kScene + " -q --no-video --duration 6 ";
+  const std::string run = "ghtrack run " + kQuotedScene + " -q --no-video --duration 6 ";
   ASSERT_EQ(shell(run + "--seed 1 -o one && " + run + "--seed 2 -o two", folder.path()).exit_code,
             0);
   for (int i = 0; i < 5; ++i) {
@@ -111,7 +114,7 @@ TEST(TwoProcesses, NeverMixTheirFiles) {
 // way of the next run, which also takes away what the killed one left.
 TEST(Kill, LeavesWholeFilesAndNothingInTheWay) {
   const TemporaryFolder folder;
-  const std::string run = "ghtrack run " + kScene + " -q --no-video --duration 6 ";
+  const std::string run = "ghtrack run " + kQuotedScene + " -q --no-video --duration 6 ";
   ASSERT_EQ(shell(run + "--seed 1 -o one", folder.path()).exit_code, 0);
   fs::create_directory(folder.path() / "r");  // a run may be killed before it makes it
   for (int i = 0; i < 8; ++i) {
@@ -145,13 +148,15 @@ TEST(Foreign, FilesStayWhatTheyAre) {
   write(at / "full" / "frame_000000.png", "mine\n");
   fs::create_directories(at / "c");
   fs::create_symlink(at / "victim", at / "c" / "shard-0-of-1.runs.partial");
-  const std::string video = "ghtrack video " + kScene + " -q --to 0.1 --size 320x180 ";
-  EXPECT_EQ(shell("ghtrack run " + kScene + " -q --no-video --duration 1 -o r", at).exit_code, 0);
+  const std::string video = "ghtrack video " + kQuotedScene + " -q --to 0.1 --size 320x180 ";
+  EXPECT_EQ(shell("ghtrack run " + kQuotedScene + " -q --no-video --duration 1 -o r", at).exit_code,
+            0);
   EXPECT_EQ(shell("ghtrack -q track r/detections.csv -o t.csv", at).exit_code, 0);
   EXPECT_EQ(shell(video + "-o v.avi", at).exit_code, 0);
   EXPECT_EQ(shell(video + "-o pics/ && " + video + "-o pics/", at).exit_code, 0);
   EXPECT_EQ(shell(video + "-o full/", at).exit_code, 2);
-  EXPECT_EQ(shell("ghtrack compare " + kScene + " -q --runs 1 --duration 1 -o c", at).exit_code, 1);
+  EXPECT_EQ(
+      shell("ghtrack compare " + kQuotedScene + " -q --runs 1 --duration 1 -o c", at).exit_code, 1);
   EXPECT_EQ(contents(at / "victim"), "mine\n");
   EXPECT_EQ(contents(at / "pics.partial" / "mine.txt"), "mine\n");
   EXPECT_EQ(contents(at / "full" / "frame_000000.png"), "mine\n");
@@ -163,7 +168,7 @@ TEST(Foreign, FilesStayWhatTheyAre) {
 // ones stand as before.
 TEST(Together, AllFilesOrNone) {
   const TemporaryFolder folder;
-  const std::string run = "ghtrack run " + kScene + " -q --no-video --duration 1 -o r ";
+  const std::string run = "ghtrack run " + kQuotedScene + " -q --no-video --duration 1 -o r ";
   ASSERT_EQ(shell(run + "--seed 1", folder.path()).exit_code, 0);
   const std::string truth = contents(folder.path() / "r" / "truth.csv");
   ASSERT_EQ(shell("rm r/tracks.csv && mkdir r/tracks.csv", folder.path()).exit_code, 0);
@@ -180,13 +185,14 @@ TEST(Together, AllFilesOrNone) {
 TEST(Threads, AreNotNeeded) {
   if (kSanitized) GTEST_SKIP() << "the sanitizers need more addresses than these limits leave";
   const TemporaryFolder folder;
-  const std::string compare = "ghtrack compare " + kScene + " -q --runs 4 --duration 2 ";
+  const std::string compare = "ghtrack compare " + kQuotedScene + " -q --runs 4 --duration 2 ";
   ASSERT_EQ(shell(compare + "--jobs 1 -o one", folder.path()).exit_code, 0);
   for (const std::string limit : {"ulimit -v 200000", "ulimit -v 120000",
                                   "ulimit -v 30000"}) {
     for (const std::string& command :
-         {compare + "--jobs 4 -o four", "ghtrack tune " + kScene + " -q --runs 2 --duration 2",
-          "ghtrack video " + kScene + " -q --to 0.1 --size 320x180 -o v.mp4"}) {
+         {compare + "--jobs 4 -o four",
+          "ghtrack tune " + kQuotedScene + " -q --runs 2 --duration 2",
+          "ghtrack video " + kQuotedScene + " -q --to 0.1 --size 320x180 -o v.mp4"}) {
       const Outcome outcome = shell("(" + limit + "; " + command + ")", folder.path());
       if (outcome.exit_code == 127) continue;  // too little to load the program
       EXPECT_THAT(outcome.exit_code, ::testing::AnyOf(0, 1)) << limit << " " << command;

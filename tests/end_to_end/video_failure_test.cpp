@@ -18,7 +18,7 @@ using ::testing::Not;
 
 const std::string kVideo = "ghtrack video '" + scene_file("balloons.yaml").string() + "' ";
 
-int lines_of(const std::string& text) {
+int line_count(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -37,7 +37,7 @@ TEST_P(Destination, IsRefusedInOneSentence) {
   EXPECT_EQ(outcome.exit_code, GetParam().exit_code) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(GetParam().says));
   // A hint at the help may follow.
-  EXPECT_EQ(lines_of(outcome.err.substr(0, outcome.err.find("Try '"))), 1) << outcome.err;
+  EXPECT_EQ(line_count(outcome.err.substr(0, outcome.err.find("Try '"))), 1) << outcome.err;
   EXPECT_THAT(names_in(folder.path()), ElementsAre("folder"));
 }
 
@@ -82,7 +82,7 @@ TEST(VideoFailure, LeavesNothingOnAFullDisk) {
     EXPECT_EQ(outcome.exit_code, 1) << options;
     EXPECT_THAT(outcome.err, HasSubstr("pace")) << options;  // "No space left", "no space left"
     // A hint at the help may follow.
-  EXPECT_EQ(lines_of(outcome.err.substr(0, outcome.err.find("Try '"))), 1) << outcome.err;
+    EXPECT_EQ(line_count(outcome.err.substr(0, outcome.err.find("Try '"))), 1) << outcome.err;
     EXPECT_THAT(names_in(folder.path()), IsEmpty()) << options;
   }
   ::umount(folder.path().c_str());

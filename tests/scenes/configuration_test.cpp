@@ -13,8 +13,8 @@ namespace ghtrack::schema {
 namespace {
 
 using sample::Config;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 Config read(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return read_configuration_text<Config>(text, "demo.yaml", overrides);

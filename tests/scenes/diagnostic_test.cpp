@@ -10,9 +10,9 @@
 namespace ghtrack {
 namespace {
 
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Derived: the format that is promised to users.
 TEST(Diagnostic, IsOneLineWithFileLineColumnAndPath) {

@@ -9,8 +9,8 @@
 namespace ghtrack::schema {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 Node parse(const std::string& text) {
   std::vector<Diagnostic> found;

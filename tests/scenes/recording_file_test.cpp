@@ -13,7 +13,7 @@ namespace ghtrack {
 namespace {
 
 /// A folder with a table, and a scene that asks for it.
-class RecordingFile : public testing::Test {
+class RecordingFile : public ::testing::Test {
  protected:
   Scene read(const std::string& table, const std::string& id = {}) const {
     folder_.write("walk.csv", table);

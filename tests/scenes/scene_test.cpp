@@ -16,8 +16,8 @@ namespace ghtrack {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const fs::path kRoot = GHTRACK_SOURCE_DIR;
 

@@ -12,7 +12,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kDegree = portable::kPi / 180.0;
 const Vec2 kSite(100.0, -50.0);
 
 /// Mean and standard error of a sample.
@@ -39,7 +38,7 @@ struct RadarCase {
   double sigma_bearing_deg;
 };
 
-class RadarConversion : public testing::TestWithParam<RadarCase> {};
+class RadarConversion : public ::testing::TestWithParam<RadarCase> {};
 
 // Derived: E[λ⁻¹ r u] is the true place, so the mean error is 0 within 4.5 standard errors, and
 // with the covariance of the error given the measurement E[eᵀ R⁻¹ e] = 2 (Mo et al. 1998); its
@@ -49,7 +48,7 @@ TEST_P(RadarConversion, IsUnbiasedAndConsistent) {
   Radar radar;
   radar.sigma_range = c.sigma_range;
   radar.sigma_bearing_deg = c.sigma_bearing_deg;
-  const portable::SinCos turn = portable::sin_cos(c.bearing_deg * kDegree);
+  const portable::SinCos turn = portable::sin_cos(c.bearing_deg * portable::kDegree);
   const Vec2 truth = kSite + c.range * Vec2(turn.cos, turn.sin);
   Mean x, y, nees;
   Stream noise(1, Purpose::kMeasurementNoise, 0, 0);
@@ -70,10 +69,10 @@ TEST_P(RadarConversion, IsUnbiasedAndConsistent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ranges, RadarConversion,
-                         testing::Values(RadarCase{100, 30, 1, 0.2}, RadarCase{1000, 120, 1, 0.2},
-                                         RadarCase{5000, -100, 10, 2}, RadarCase{500, 45, 5, 10},
-                                         RadarCase{1e5, 170, 50, 1.5}, RadarCase{1000, -30, 1, 25},
-                                         RadarCase{50, 200, 2, 40}));
+                         ::testing::Values(RadarCase{100, 30, 1, 0.2}, RadarCase{1000, 120, 1, 0.2},
+                                           RadarCase{5000, -100, 10, 2}, RadarCase{500, 45, 5, 10},
+                                           RadarCase{1e5, 170, 50, 1.5},
+                                           RadarCase{1000, -30, 1, 25}, RadarCase{50, 200, 2, 40}));
 
 // Derived: for small noise the covariance becomes σ_r² along and (r σ_θ)² across the bearing.
 TEST(Radar, HasTheCovarianceOfSmallErrors) {

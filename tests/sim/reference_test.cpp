@@ -136,7 +136,7 @@ Deviation deviation_from(const std::string& name, int physics_rate) {
   return worst;
 }
 
-class Reference : public testing::TestWithParam<std::tuple<std::string, int>> {};
+class Reference : public ::testing::TestWithParam<std::tuple<std::string, int>> {};
 
 // Derived: the tolerances published with the trajectories; the kinematics of a train's track also
 // hold their speed to 1e-4. In brackets what naive use of Box2D at 60 Hz gives.
@@ -166,8 +166,8 @@ TEST_P(Reference, IsReproducedByItsScene) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Physics, Reference,
-                         testing::Combine(testing::ValuesIn(scenario_names()),
-                                          testing::Values(60, 240)),
+                         ::testing::Combine(::testing::ValuesIn(scenario_names()),
+                                            ::testing::Values(60, 240)),
                          [](const auto& test) {
                            return std::get<0>(test.param) + "_at_" +
                                   std::to_string(std::get<1>(test.param)) + "_Hz";
@@ -181,7 +181,7 @@ std::vector<std::string> eventful_names() {
   return names;
 }
 
-class Events : public testing::TestWithParam<std::string> {};
+class Events : public ::testing::TestWithParam<std::string> {};
 
 // Derived: the instants of bounces and stops in the reference. By their tolerance before a bounce
 // the ball still falls, as much later it rises; a train still moves, and then stands.
@@ -214,7 +214,7 @@ TEST_P(Events, HappenWhenTheReferenceSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Physics, Events, testing::ValuesIn(eventful_names()),
+INSTANTIATE_TEST_SUITE_P(Physics, Events, ::testing::ValuesIn(eventful_names()),
                          [](const auto& test) { return test.param; });
 
 // T6. Derived: with quadratic drag a ball that leaves the ground at v rises by ln(1 + k v²/g) / 2k,

@@ -151,16 +151,16 @@ Moments moments_of(const Route& route, double time) {
 }
 
 /// Five standard errors of a normal variable's sample variance, as a fraction of it.
-const double kBound = 5.0 * std::sqrt(2.0 / kRuns);
+const double kMomentBound = 5.0 * std::sqrt(2.0 / kRuns);
 
 // Derived: white acceleration of density q leaves q [T³/3 T²/2; T²/2 T] after the time T (Bar-Shalom,
 // Li & Kirubarajan 2001, equation 6.2.2-12).
 TEST(ProcessNoise, HasTheCovarianceOfNearlyConstantVelocity) {
   constexpr double kTime = 1.5;
   const Moments moments = moments_of(straying(WhiteAcceleration{2.0}), kTime);
-  EXPECT_NEAR(moments.vv / (2.0 * kTime), 1.0, kBound);
-  EXPECT_NEAR(moments.xx / (2.0 * kTime * kTime * kTime / 3.0), 1.0, kBound);
-  EXPECT_NEAR(moments.xv / (2.0 * kTime * kTime / 2.0), 1.0, kBound);
+  EXPECT_NEAR(moments.vv / (2.0 * kTime), 1.0, kMomentBound);
+  EXPECT_NEAR(moments.xx / (2.0 * kTime * kTime * kTime / 3.0), 1.0, kMomentBound);
+  EXPECT_NEAR(moments.xv / (2.0 * kTime * kTime / 2.0), 1.0, kMomentBound);
 }
 
 // Derived: Singer's acceleration is stationary, and the velocity that it leaves has the variance
@@ -170,8 +170,8 @@ TEST(ProcessNoise, HasTheCovarianceOfSingersModel) {
   const Moments moments = moments_of(straying(SingerAcceleration{1.5, 2.0}), kTime);
   const double ratio = kTime / 2.0;
   const double velocity = 2.0 * 1.5 * 1.5 * 4.0 * (ratio - 1.0 + std::exp(-ratio));
-  EXPECT_NEAR(moments.aa / (1.5 * 1.5), 1.0, kBound);
-  EXPECT_NEAR(moments.vv / velocity, 1.0, kBound);
+  EXPECT_NEAR(moments.aa / (1.5 * 1.5), 1.0, kMomentBound);
+  EXPECT_NEAR(moments.vv / velocity, 1.0, kMomentBound);
 }
 
 // Derived: a turn rate that is a random walk of density q leaves q T³/3 to the heading; a speed that
@@ -180,8 +180,8 @@ TEST(ProcessNoise, HasTheCovarianceOfANoisyTurn) {
   constexpr double kTime = 2.0;
   const Moments moments = moments_of(straying(NoisyTurn{2.0, 0.5}), kTime);
   const double density = std::pow(2.0 * kPi / 180.0, 2);
-  EXPECT_NEAR(moments.headings / (density * kTime * kTime * kTime / 3.0), 1.0, kBound);
-  EXPECT_NEAR(moments.speeds / (0.25 * kTime), 1.0, kBound);
+  EXPECT_NEAR(moments.headings / (density * kTime * kTime * kTime / 3.0), 1.0, kMomentBound);
+  EXPECT_NEAR(moments.speeds / (0.25 * kTime), 1.0, kMomentBound);
 }
 
 // Property: position, velocity and acceleration belong together, whatever the noise, also where the

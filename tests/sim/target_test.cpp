@@ -133,7 +133,7 @@ TEST(Targets, CanBeTenThousand) {
   field.grid->rows = 101;
   const std::vector<TargetProblem> problems = find_problems({field});
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_THAT(problems[0].message, testing::HasSubstr("10100 targets"));
+  EXPECT_THAT(problems[0].message, ::testing::HasSubstr("10100 targets"));
 }
 
 // Derived: a ball flies for `flight` s under gravity from hand to hand, is in the other hand then,

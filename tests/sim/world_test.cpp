@@ -179,9 +179,9 @@ TEST(World, RefusesTargetsThatCannotExistTogether) {
       {target_of(ball, "a"), target_of(close, "b"), target_of(single_car(0.0, 1.0), "a")});
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[0].target, 2u);
-  EXPECT_THAT(problems[0].message, testing::HasSubstr("'a' is taken"));
+  EXPECT_THAT(problems[0].message, ::testing::HasSubstr("'a' is taken"));
   EXPECT_EQ(problems[1].target, 1u);
-  EXPECT_THAT(problems[1].message, testing::HasSubstr("begins inside targets[0]"));
+  EXPECT_THAT(problems[1].message, ::testing::HasSubstr("begins inside targets[0]"));
   EXPECT_THROW(World(world_of({target_of(ball, "a"), target_of(close, "a")}), 1),
                std::invalid_argument);
 }

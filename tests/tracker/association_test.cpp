@@ -12,15 +12,15 @@ namespace {
 
 constexpr double kMissCost = 3.0;
 
-struct Problem {
+struct GatedProblem {
   CandidateTable table;
   int detections = 0;
 };
 
 /// Random costs below the cost of a miss; `density` of the pairs lie inside the gate.
-Problem random_problem(std::mt19937& random, int tracks, int detections, double density) {
+GatedProblem random_problem(std::mt19937& random, int tracks, int detections, double density) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  Problem problem{.table = {}, .detections = detections};
+  GatedProblem problem{.table = {}, .detections = detections};
   for (int track = 0; track < tracks; ++track) {
     for (int detection = 0; detection < detections; ++detection) {
       const double ticket = unit(random);
@@ -32,7 +32,7 @@ Problem random_problem(std::mt19937& random, int tracks, int detections, double 
   return problem;
 }
 
-double total_cost(const Problem& problem, const std::vector<int>& assignment) {
+double total_cost(const GatedProblem& problem, const std::vector<int>& assignment) {
   double total = 0.0;
   for (int track = 0; track < problem.table.rows(); ++track) {
     const auto row = problem.table.row(track);
@@ -44,7 +44,7 @@ double total_cost(const Problem& problem, const std::vector<int>& assignment) {
   return total;
 }
 
-double best_by_trying_everything(const Problem& problem, int track, std::set<int>& taken) {
+double best_by_trying_everything(const GatedProblem& problem, int track, std::set<int>& taken) {
   if (track == problem.table.rows()) return 0.0;
   double best = kMissCost + best_by_trying_everything(problem, track + 1, taken);
   for (const Candidate& candidate : problem.table.row(track)) {
@@ -68,7 +68,8 @@ TEST(Association, GlobalAssignmentIsAsCheapAsTheBestOfAllAssignments) {
   for (int trial = 0; trial < 2000; ++trial) {
     const int tracks = static_cast<int>(random() % 7);
     const int detections = static_cast<int>(random() % 7);
-    const Problem problem = random_problem(random, tracks, detections, 0.2 + 0.1 * (trial % 9));
+    const GatedProblem problem =
+        random_problem(random, tracks, detections, 0.2 + 0.1 * (trial % 9));
     const auto assignment = assign_globally(problem.table, detections, kMissCost);
     std::set<int> taken;
     ASSERT_TRUE(serves_nobody_twice(assignment));
@@ -83,7 +84,7 @@ TEST(Association, GlobalIsNeverDearerThanGreedyOnLargeProblems) {
   std::mt19937 random(2);
   int strictly_cheaper = 0;
   for (int trial = 0; trial < 50; ++trial) {
-    const Problem problem = random_problem(random, 200, 200, 0.03);
+    const GatedProblem problem = random_problem(random, 200, 200, 0.03);
     const auto global = assign_globally(problem.table, problem.detections, kMissCost);
     const auto greedy = assign_greedily(problem.table, problem.detections);
     ASSERT_TRUE(serves_nobody_twice(global));

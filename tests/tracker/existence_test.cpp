@@ -21,7 +21,7 @@ TrackerDesign design(Association association, double detection_probability, doub
   return testing::told_design(association, kSide, detection_probability, clutter);
 }
 
-Scan scan_of(double time, const std::vector<Vector2d>& positions) {
+Scan seen_at(double time, const std::vector<Vector2d>& positions) {
   return testing::scan_of(time, positions, kSigma);
 }
 
@@ -47,12 +47,12 @@ TEST(Existence, ConfirmsAndLetsGoByEvidence) {
     int scans_to_let_go[2] = {};
     for (const double p : {0.5, 0.95}) {
       const TrackerDesign tracker = design(association, p, 10.0);
-      TrackerState state = step(tracker, {}, scan_of(0, {Vector2d(100, 100)}));
+      TrackerState state = step(tracker, {}, seen_at(0, {Vector2d(100, 100)}));
       ASSERT_EQ(state.tracks.size(), 1U);
       EXPECT_LT(state.tracks[0].id, 0);
       EXPECT_EQ(state.tracks[0].status, TrackStatus::kTentative);
       for (int i = 1; i <= 6; ++i) {
-        state = step(tracker, std::move(state), scan_of(i, {Vector2d(100 + i, 100)}));
+        state = step(tracker, std::move(state), seen_at(i, {Vector2d(100 + i, 100)}));
       }
       ASSERT_FALSE(state.tracks.empty());
       EXPECT_EQ(state.tracks[0].id, 1);
@@ -63,7 +63,7 @@ TEST(Existence, ConfirmsAndLetsGoByEvidence) {
       }
       int misses = 0;
       while (!state.tracks.empty() && state.tracks[0].status != TrackStatus::kTentative) {
-        state = step(tracker, std::move(state), scan_of(7 + misses++, {}));
+        state = step(tracker, std::move(state), seen_at(7 + misses++, {}));
       }
       scans_to_let_go[p > 0.9] = misses;
     }
@@ -77,12 +77,12 @@ TEST(Existence, CountsMissesOnlyWhereTheSensorSees) {
   const TrackerDesign tracker = design(Association::kNearestGlobal, 0.95, 10.0);
   TrackerState state;
   for (int i = 0; i < 10; ++i) {
-    state = step(tracker, std::move(state), scan_of(i, {Vector2d(kSide - 19 + 2 * i, 100)}));
+    state = step(tracker, std::move(state), seen_at(i, {Vector2d(kSide - 19 + 2 * i, 100)}));
   }
   ASSERT_EQ(state.tracks.size(), 1U);
   double before = *state.tracks[0].existence;
   for (int i = 10; i < 15; ++i) {  // at x = 301 and on
-    state = step(tracker, std::move(state), scan_of(i, {}));
+    state = step(tracker, std::move(state), seen_at(i, {}));
     ASSERT_EQ(state.tracks.size(), 1U);
     EXPECT_NEAR(*state.tracks[0].existence, before * survival(1.0, 200.0), 1e-12);
     before = *state.tracks[0].existence;
@@ -138,7 +138,7 @@ double log_likelihood(Association association, double detection_probability, dou
     for (int k = count(random); k > 0; --k) {
       seen.emplace_back(kSide * unit(random), kSide * unit(random));
     }
-    state = step(tracker, std::move(state), scan_of(i, seen));
+    state = step(tracker, std::move(state), seen_at(i, seen));
     sum += state.log_likelihood;
   }
   return sum;

@@ -16,11 +16,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSigma = 0.5;
+constexpr double kNoise = 0.5;
 constexpr double kPeriod = 0.1;
 
 TrackerDesign design(TrackerConfig config = {}) {
-  return {std::move(config), {{.period = kPeriod, .sigma = kSigma, .field_of_view = {}}}};
+  return {std::move(config), {{.period = kPeriod, .sigma = kNoise, .field_of_view = {}}}};
 }
 
 /// Every way of giving detections to tracks, under both life cycles where it goes with them.
@@ -52,14 +52,14 @@ TrackerConfig three_filters(const std::array<std::string, 3>& names = {"ball", "
 /// Targets in steady motion among clutter; every tenth detection is missing.
 std::vector<Scan> busy_scans(int count, const std::array<std::string, 3>& labels = {}) {
   std::mt19937 random(7);
-  std::normal_distribution<double> normal(0.0, kSigma);
+  std::normal_distribution<double> normal(0.0, kNoise);
   std::uniform_real_distribution<double> unit;
   std::vector<Scan> scans;
   for (int i = 0; i < count; ++i) {
     Scan scan{.time = kPeriod * i, .sensor = 0, .detections = {}};
     const auto report = [&](double x, double y, const std::string& label) {
       scan.detections.push_back({.position = {x, y},
-                                 .covariance = kSigma * kSigma * Eigen::Matrix2d::Identity(),
+                                 .covariance = kNoise * kNoise * Eigen::Matrix2d::Identity(),
                                  .label = label});
     };
     for (std::size_t target = 0; target < 12; ++target) {
@@ -182,7 +182,7 @@ TEST(TrackerProperty, UnitsChangeNothingButTheScale) {
     filter.initial_speed = 3.0 * length / time;
     config.filters["default"] = filter;
     return TrackerDesign(config, {{.period = kPeriod * time,
-                                   .sigma = kSigma * length,
+                                   .sigma = kNoise * length,
                                    .field_of_view = {},
                                    .detection_probability = 0.9}});
   };
@@ -238,7 +238,7 @@ class HostileScans {
     for (std::size_t i = 0; i < count; ++i) {
       const double x = number(normal_(random_));
       const double y = number(normal_(random_));
-      const double variance = number(kSigma * kSigma);
+      const double variance = number(kNoise * kNoise);
       scan.detections.push_back(
           {.position = {x, y}, .covariance = variance * Eigen::Matrix2d::Identity(), .label = {}});
       if (random_() % 8 == 0) scan.detections.push_back(scan.detections.back());
@@ -292,7 +292,7 @@ TEST(TrackerProperty, WithoutAClassTheEvidenceChoosesTheFilter) {
   config.filters["tram"] = GhConfig{.design = gain_design::TrackingIndex<1>{.process_noise = 0.2}};
   const TrackerDesign tracker = design(config);
   std::mt19937 random(5);
-  std::normal_distribution<double> noise(0.0, kSigma);
+  std::normal_distribution<double> noise(0.0, kNoise);
   TrackerState state;
   for (int i = 0; i < 40; ++i) {
     const double t = kPeriod * i;
@@ -302,7 +302,7 @@ TEST(TrackerProperty, WithoutAClassTheEvidenceChoosesTheFilter) {
       const double dx = noise(random);
       const double dy = noise(random);
       scan.detections.push_back({.position = truth + Vector2d(dx, dy),
-                                 .covariance = kSigma * kSigma * Eigen::Matrix2d::Identity(),
+                                 .covariance = kNoise * kNoise * Eigen::Matrix2d::Identity(),
                                  .label = {}});
     }
     state = step(tracker, std::move(state), scan);

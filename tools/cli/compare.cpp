@@ -18,6 +18,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/paths.hpp"
 #include "tools/cli/progress.hpp"
 #include "tools/cli/run_replay.hpp"
 #include "tools/cli/scene_source.hpp"
@@ -91,7 +92,7 @@ Campaign with_tuned_filters(Campaign campaign, const fs::path& folder,
   for (std::size_t i = 0; i < untuned.size(); ++i) {
     files.push_back(folder / tuning_file(campaign.cells[untuned[i]]));
     const bool is_own = static_cast<int>(i) % ranks.count() == ranks.index();
-    if (is_own && !(takes_files && fs::exists(files.back()))) own.push_back(i);
+    if (is_own && !(takes_files && is_there(files.back()))) own.push_back(i);
   }
   constexpr std::size_t kAtOnce = 16;  // after which files are written
   for (std::size_t first = 0; first < own.size(); first += kAtOnce) {
@@ -125,7 +126,7 @@ struct Study {
 void compute_share(const Study& study, const Shard& shard, const RunSet& done,
                    const fs::path& folder, const CompareOptions& options, const Manners& manners) {
   const std::int64_t runs = runs_to_do(study.campaign, study.groups, shard, done);
-  if (options.resume && runs == 0 && fs::exists(journal_path(folder, shard))) return;
+  if (options.resume && runs == 0 && is_there(journal_path(folder, shard))) return;
   Journal journal(folder, shard, study.campaign, options.resume);
   Progress progress("comparing", "runs", static_cast<std::size_t>(runs),
                     manners.quiet || shard.index > 0);

@@ -12,7 +12,7 @@
 namespace ghtrack::cli {
 namespace {
 
-constexpr timespec kPatience = {.tv_sec = 0, .tv_nsec = 700'000'000};  // before the end by force
+constexpr timespec kGrace = {.tv_sec = 0, .tv_nsec = 700'000'000};     // before the end by force
 constexpr timespec kTimeForOrder = {.tv_sec = 5, .tv_nsec = 0};        // once somebody puts in order
 
 volatile std::sig_atomic_t last_signal = 0;
@@ -39,7 +39,7 @@ void remember(int signal) {
   const bool is_second = last_signal != 0;
   last_signal = signal;
   if (is_second || !has_last_call) end_by_force(signal);
-  give(kPatience);
+  give(kGrace);
   errno = error;
 }
 

@@ -10,6 +10,7 @@
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/data_source.hpp"
+#include "tools/cli/paths.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/plot/figure_file.hpp"
 #include "tools/plot/series_figure.hpp"
@@ -22,11 +23,6 @@ namespace ghtrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_there(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
 
 /// The cut-off that a run was scored with.
 double cutoff_of_run(const fs::path& folder) {

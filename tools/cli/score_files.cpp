@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "tools/cli/paths.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/record/errors.hpp"
 
@@ -13,16 +14,6 @@ namespace ghtrack::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_there(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
-bool is_folder(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored);
-}
 
 std::string name_of_folder(const fs::path& folder) {
   std::error_code ignored;

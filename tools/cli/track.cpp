@@ -317,9 +317,9 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
     if (options.smooth) {
       Scan latest;
       scans.next = [next = scans.next, &latest](Scan& scan) {
-        const bool is_there = next(scan);
-        if (is_there) latest = scan;
-        return is_there;
+        const bool has_more = next(scan);
+        if (has_more) latest = scan;
+        return has_more;
       };
       TrackHistory history(design_of(config, scans));
       track_all([&](const TrackSnapshot& now) {

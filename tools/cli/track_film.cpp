@@ -21,7 +21,7 @@ constexpr double kLongAgo = 1e6;      // times beyond do not count from the star
 constexpr double kSlow = 10.0;        // data that come less often are shown one instant a picture [Hz]
 constexpr double kQuick = 60.0;       // … and more often, at this rate
 constexpr double kTimeLapse = 25.0;   // pictures a second then
-constexpr double kPatience = 1.5;     // how long an instant is shown, in periods
+constexpr double kLongestShown = 1.5;  // how long an instant is shown, in periods
 constexpr double kSpeedReach = 0.4;   // over which the speed of a box is taken [s]
 constexpr double kMargin = 0.06;      // around data on dark ground
 constexpr std::size_t kLongestPast = 2000;  // detections that stay on a map
@@ -215,7 +215,7 @@ void TrackFilm::write(const FilmOptions& options, double period,
   const ToPixel to_pixel = projection(options, background, origin);
 
   const double tick = pace.speed / background.fps;
-  const double patience = std::max(kPatience * period, tick);
+  const double patience = std::max(kLongestShown * period, tick);
   const auto pixel_size = [](const std::optional<Eigen::Vector2d>& size) {
     return size ? std::optional(render::Pixel{size->x(), size->y()}) : std::nullopt;
   };

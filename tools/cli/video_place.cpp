@@ -60,8 +60,8 @@ void VideoPlace::keep_partial() {
   const fs::path partial = render::partial_path(scratch_path()).filename();
   std::error_code error;
   fs::rename(scratch_.path() / partial, target_.parent_path() / partial, error);
-  const bool is_there = error != std::errc::no_such_file_or_directory;  // not without a frame
-  if (error && is_there) fail(error.value());
+  const bool exists = error != std::errc::no_such_file_or_directory;  // not without a frame
+  if (error && exists) fail(error.value());
 }
 
 void VideoPlace::fail(int error) const {

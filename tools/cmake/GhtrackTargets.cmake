@@ -6,6 +6,10 @@ if(PROJECT_IS_TOP_LEVEL)
   if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release)
   endif()
+  # Sources of one folder are compiled a few at a time, since what they include costs more than what
+  # they say. The presets `debug` and `clang` compile each alone: for who writes, and for includes.
+  option(CMAKE_UNITY_BUILD "Compile several sources of a folder as one" ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 4)
 endif()
 
 add_library(ghtrack_options INTERFACE)
@@ -16,18 +20,22 @@ target_compile_options(
             -ffp-contract=off -fno-math-errno
             # Everything alike, modules and programs, so that they share precompiled headers.
             -fPIC -fno-semantic-interposition
-            -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+            -Wall -Wextra -Wpedantic -Wconversion
             -Wno-sign-conversion
+            # Where sources are compiled as one, a local name may be that of another source's constant,
+            # and GCC takes them for headers, whose unnamed namespaces it warns of.
+            $<IF:$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>,-Wshadow=local;-Wno-subobject-linkage,-Wshadow>
             # False alarms of GCC 12 on concatenated strings and on variants (GCC PR 105651, 105562).
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized -Wno-stringop-overflow
             -Wno-stringop-overread -Wno-array-bounds>
             $<$<BOOL:${GHTRACK_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# ghtrack_add_library(<name> SOURCES ... HEADERS ... [PUBLIC targets...] [PRIVATE targets...]
-#                     [PRECOMPILED target])
+# ghtrack_add_library(<name> SOURCES ... [QUICKLY sources...] HEADERS ... [PUBLIC targets...]
+#                     [PRIVATE targets...] [PRECOMPILED target])
 # A library named ghtrack::<name>, whose headers are included from the root: "tracker/track.hpp".
+# QUICKLY: sources to which ghtrack_compile_quickly applies.
 function(ghtrack_add_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PRECOMPILED" "SOURCES;HEADERS;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PRECOMPILED" "SOURCES;QUICKLY;HEADERS;PUBLIC;PRIVATE")
   if(NOT arg_PRECOMPILED)
     set(arg_PRECOMPILED ghtrack_common_headers)
   endif()
@@ -37,6 +45,13 @@ function(ghtrack_add_library name)
     set(scope PUBLIC)
     target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE $<BUILD_INTERFACE:ghtrack_options> ${arg_PRIVATE})
     target_precompile_headers(${target} REUSE_FROM ${arg_PRECOMPILED})
+    if(arg_QUICKLY)
+      add_library(${target}_quickly OBJECT ${arg_QUICKLY})
+      target_link_libraries(${target}_quickly PRIVATE ghtrack_options ${arg_PUBLIC} ${arg_PRIVATE})
+      target_precompile_headers(${target}_quickly REUSE_FROM ${arg_PRECOMPILED})
+      ghtrack_compile_quickly(${target}_quickly)
+      target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_quickly>)
+    endif()
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -48,17 +63,13 @@ function(ghtrack_add_library name)
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${arg_HEADERS})
 endfunction()
 
-# ghtrack_compile_quickly(TARGETS <target>... | SOURCES <source>...)
+# ghtrack_compile_quickly(<target>...)
 # For what runs once or waits for files, such as reading options and writing text: a third less to
 # compile, and no result depends on it.
-function(ghtrack_compile_quickly kind)
-  if(kind STREQUAL TARGETS)
-    foreach(target IN LISTS ARGN)
-      target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-    endforeach()
-  else()
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
-  endif()
+function(ghtrack_compile_quickly)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
 endfunction()
 
 # ghtrack_add_test(<folder> SOURCES ... LINK targets... [DEFINITIONS ...])
@@ -70,7 +81,7 @@ function(ghtrack_add_test name)
   target_link_libraries(${target} PRIVATE ghtrack_options ${arg_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${target} PRIVATE GHTRACK_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${arg_DEFINITIONS})
   target_precompile_headers(${target} REUSE_FROM ghtrack_test_headers)
-  ghtrack_compile_quickly(TARGETS ${target})
+  ghtrack_compile_quickly(${target})
   # A test of half a minute takes ten times as long with the sanitizers.
   set(timeout 300)
   if(CMAKE_CXX_FLAGS MATCHES "sanitize=")

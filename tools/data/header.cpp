@@ -106,7 +106,7 @@ constexpr std::array<UnitName, 16> kUnits = {{
     {"deg ° degree degrees", 1.0, false},
 }};
 
-std::string_view trimmed(std::string_view text) {
+std::string_view unquoted(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\"'";
   const auto first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
@@ -132,7 +132,7 @@ bool any_word(std::string_view words, Visit visit) {
 }
 
 std::optional<Unit> unit_named(std::string_view text) {
-  const std::string name = lower(trimmed(text));
+  const std::string name = lower(unquoted(text));
   for (const UnitName& unit : kUnits) {
     if (any_word(unit.names, [&](std::string_view word) { return word == name; })) {
       return Unit{name, unit.scale, unit.is_time};
@@ -144,7 +144,7 @@ std::optional<Unit> unit_named(std::string_view text) {
 /// "Pos X " → "pos_x"
 std::string base_of(std::string_view text) {
   std::string result;
-  for (const char c : lower(trimmed(text))) {
+  for (const char c : lower(unquoted(text))) {
     const bool joins = c == ' ' || c == '-' || c == '.' || c == '_';
     if (!joins) {
       result += c;
@@ -211,7 +211,7 @@ std::string_view to_string(Role role) {
 }
 
 Heading parse_heading(std::string_view cell) {
-  const std::string_view text = trimmed(cell);
+  const std::string_view text = unquoted(cell);
   Heading heading{.text = std::string(text), .base = base_of(text), .unit = std::nullopt};
   if (text.empty() || split_unit(text, heading) || is_alias(heading.base)) return heading;
   const std::size_t joint = heading.base.rfind('_');  // time_ms, x_mm
@@ -228,10 +228,10 @@ std::vector<ColumnChoice> parse_column_choices(std::string_view text) {
   std::vector<ColumnChoice> choices;
   while (!text.empty()) {
     const std::size_t end = text.find(',');
-    const std::string_view item = trimmed(text.substr(0, end));
+    const std::string_view item = unquoted(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     const std::size_t equals = item.find('=');
-    const std::string name = lower(trimmed(item.substr(0, equals)));
+    const std::string name = lower(unquoted(item.substr(0, equals)));
     const auto role = std::find_if(kRoles.begin(), kRoles.end(),
                                    [&](const RoleName& r) { return r.name == name; });
     if (equals == std::string_view::npos || role == kRoles.end()) {
@@ -241,7 +241,7 @@ std::vector<ColumnChoice> parse_column_choices(std::string_view text) {
           fmt::format("--columns: {} is not NAME=COLUMN{}", in_quotes(item),
                       role == kRoles.end() ? hint(name, "names", names) : std::string()));
     }
-    choices.push_back({role->role, std::string(trimmed(item.substr(equals + 1)))});
+    choices.push_back({role->role, std::string(unquoted(item.substr(equals + 1)))});
   }
   return choices;
 }

@@ -298,10 +298,7 @@ void Journal::write(const std::string& bytes) {
   }
 }
 
-void Journal::fail() const {
-  throw WriteError(partial_path_.string() +
-                   ": error: cannot write: " + std::generic_category().message(errno));
-}
+void Journal::fail() const { throw WriteError(partial_path_, errno); }
 
 fs::path journal_path(const fs::path& folder, const Shard& shard) {
   fs::path path =

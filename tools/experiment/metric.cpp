@@ -10,8 +10,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
 using Value = std::optional<double> ObjectReport::*;
 using Count = std::int64_t ObjectReport::*;
 

@@ -7,11 +7,13 @@
 #include <numeric>
 #include <vector>
 
+#include "tools/metrics/mean.hpp"
+
 namespace ghtrack {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kConfidence = 0.965;  // of Student's intervals of what is skewed: see Average
+constexpr double kStudentConfidence =
+    0.965;                            // of Student's intervals of what is skewed: see Average
 constexpr double kFew = 20.0;         // events in all that hardly tell how they scatter
 constexpr double kMedianSlack = 0.02;            // five runs hold the median with 93.75 %
 constexpr double kNormal95 = 1.959963984540054;  // two-sided quantile of the normal distribution
@@ -134,7 +136,7 @@ Interval count_interval(std::span<const double> counts) {
 /// The interval of a mean, on the scale of the logarithm where it cannot be negative.
 Interval mean_interval(std::span<const double> values, bool is_positive) {
   const double m = mean(values);
-  const double half = student_half_width(values, is_positive ? kConfidence : 0.95);
+  const double half = student_half_width(values, is_positive ? kStudentConfidence : 0.95);
   if (!is_positive || !(m > 0.0)) return {m - half, m + half};
   const double factor = std::exp(half / m);
   return {m / factor, m * factor};
@@ -146,7 +148,7 @@ Interval rate_interval(std::span<const double> rates) {
   const auto runs = static_cast<double>(rates.size());
   const double m = mean(rates);
   if (!(m > 0.0)) return {0.0, square(kNormal95) / runs};
-  const double q = student_quantile(0.5 + 0.5 * kConfidence, std::ssize(rates) - 1);
+  const double q = student_quantile(0.5 + 0.5 * kStudentConfidence, std::ssize(rates) - 1);
   const double half = 0.5 * q * q * variance(rates) / m / runs;
   const double width = std::sqrt(2.0 * half * m + half * half);
   return {std::max(0.0, m + half - width), m + half + width};

@@ -12,7 +12,6 @@ namespace ghtrack {
 namespace {
 
 constexpr std::size_t kMostListed = 50;  // objects that get rows of their own
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> regimes_of(const std::vector<ObjectInfo>& objects) {
   std::vector<std::string> regimes;

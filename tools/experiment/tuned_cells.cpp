@@ -17,11 +17,11 @@ namespace ghtrack {
 namespace {
 
 constexpr int kMostRuns = 50;             // that a cell is tuned on
-constexpr std::size_t kMostScans = 50'000;  // of them all
+constexpr std::size_t kMostTrainingScans = 50'000;  // of them all
 
 LabelledRuns training_runs(const Trial& trial, const SharedTruth& truth, int runs) {
   const std::vector<ObjectId> objects =
-      some_objects(trial, kMostScans / static_cast<std::size_t>(runs));
+      some_objects(trial, kMostTrainingScans / static_cast<std::size_t>(runs));
   LabelledRuns training;
   for (int i = 0; i < runs; ++i) {
     const int run = kFirstTuningRun + i;

@@ -36,9 +36,9 @@ class Mean {
   double weight_ = 0.0;
 };
 
-/// NaN for a value that did not occur, as in lists of plain numbers.
-inline double or_nan(const std::optional<double>& value) {
-  return value.value_or(std::numeric_limits<double>::quiet_NaN());
-}
+/// A value that did not occur, in lists of plain numbers.
+inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+inline double or_nan(const std::optional<double>& value) { return value.value_or(kNothing); }
 
 }  // namespace ghtrack

@@ -13,7 +13,8 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kGap = 1.5;  // periods of a file between its instants, from which on some are missing
+constexpr double kLongPause =
+    1.5;  // periods of a file between its instants, from which on some are missing
 
 /// One file, with its present instant and the one after it.
 class Side {
@@ -63,7 +64,7 @@ double tolerance_of(const PointSource& truth, const PointSource& tracks) {
 bool fills_gap(double time, const Side& other, double last_scored, double tolerance) {
   const double period = other.period();
   const double gap = other.time() - other.last_time();
-  return gap > kGap * period && time >= last_scored + period - tolerance &&
+  return gap > kLongPause * period && time >= last_scored + period - tolerance &&
          other.time() - time >= period - tolerance;
 }
 
@@ -113,7 +114,7 @@ class ClockedTracks {
       ahead_ = tracks_.next();
     }
     const double age = latest_.empty() ? kNever : time - latest_.front().time;
-    if (age > latency_ + kGap * tracks_.period) return {};
+    if (age > latency_ + kLongPause * tracks_.period) return {};
     Points points = latest_;
     for (IdentifiedPoint& point : points) {
       point.time = time;

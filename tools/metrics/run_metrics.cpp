@@ -13,8 +13,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
 std::optional<double> root_mean(double sum, std::int64_t count) {
   if (count == 0) return std::nullopt;
   return std::sqrt(sum / static_cast<double>(count));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,9 @@ namespace ghtrack::plot {
 
 /// What a curve looks like.
 enum class Mark { kLine, kDashes, kDots, kRings };
+
+/// Where a curve is interrupted.
+inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// A curve; NaN in x or y interrupts it.
 struct Curve {

@@ -14,8 +14,6 @@
 namespace ghtrack::plot {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
 /// The columns of one filter's rows, by name.
 using Columns = std::map<std::string, std::vector<double>>;
 
@@ -24,7 +22,7 @@ struct FilteredSeries {
   std::map<std::string, Columns> rows;
 };
 
-FilteredSeries read(const std::string& path) {
+FilteredSeries read_series(const std::string& path) {
   Table table(path);
   FilteredSeries series;
   const auto filter = table.column("filter");
@@ -136,7 +134,7 @@ bool is_series_file(const std::string& path) {
 }
 
 Figure figure_of_series(const std::string& path, const SeriesLabels& labels) {
-  const FilteredSeries series = read(path);
+  const FilteredSeries series = read_series(path);
   Figure figure{.title = labels.title, .panels = {}};
   const Columns& columns = series.rows.at(series.filters.front());
   if (columns.contains("x")) {

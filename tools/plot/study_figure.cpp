@@ -17,9 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-Json read(const std::string& path) {
+Json read_json(const std::string& path) {
   std::ifstream file(path);
   return Json::parse(file, nullptr, /*allow_exceptions=*/false);
 }
@@ -113,11 +111,12 @@ Curve theory(double low, double high, const Value& value) {
 }  // namespace
 
 bool is_comparison_file(const std::string& path) {
-  return path.size() > 5 && path.rfind(".json") == path.size() - 5 && is_comparison(read(path));
+  return path.size() > 5 && path.rfind(".json") == path.size() - 5 &&
+         is_comparison(read_json(path));
 }
 
 Figure figure_of_study(const std::string& path, const std::string& title) {
-  const Json json = read(path);
+  const Json json = read_json(path);
   if (!is_comparison(json)) throw InputError(path + ": error: is no comparison.json");
   const auto regimes = points_of(json);
   double low = std::numeric_limits<double>::infinity(), high = 0.0;

@@ -13,7 +13,6 @@
 namespace ghtrack::plot {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, kQuantities> kColumns = {
     "vx", "vy", "rx", "ry", "sigma_x", "sigma_y", "s_x", "s_y", "existence"};
 

@@ -9,6 +9,7 @@
 
 #include "tools/data/place.hpp"
 #include "tools/data/table.hpp"
+#include "tools/plot/figure.hpp"
 
 namespace ghtrack::plot {
 

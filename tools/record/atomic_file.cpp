@@ -109,8 +109,7 @@ void AtomicFile::keep_partial() {
 }
 
 void AtomicFile::fail(int error) const {
-  throw WriteError((path_ == "-" ? "standard output" : path_.string()) +
-                   ": error: cannot write: " + std::generic_category().message(error));
+  throw WriteError(path_ == "-" ? "standard output" : path_, error);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 namespace ghtrack {
 
@@ -14,6 +16,10 @@ struct InputError : std::runtime_error {
 /// file and the reason (exit code 1).
 struct WriteError : std::runtime_error {
   using std::runtime_error::runtime_error;
+  /// @param error  of the operating system (errno)
+  WriteError(const std::filesystem::path& path, int error)
+      : std::runtime_error(path.string() +
+                           ": error: cannot write: " + std::generic_category().message(error)) {}
 };
 
 }  // namespace ghtrack

@@ -20,9 +20,7 @@ struct NumberFile::Store {
     if (descriptor >= 0) ::close(descriptor);
   }
 
-  [[noreturn]] void fail() const {
-    throw WriteError(folder + ": error: cannot write: " + std::generic_category().message(errno));
-  }
+  [[noreturn]] void fail() const { throw WriteError(folder, errno); }
 };
 
 NumberFile::NumberFile() : NumberFile(std::filesystem::temp_directory_path().string()) {}

@@ -58,8 +58,7 @@ fs::path followed(const fs::path& name) {
     if (!target) return path;
     path = *target;
   }
-  throw WriteError(name.string() +
-                   ": error: cannot write: " + std::generic_category().message(ELOOP));
+  throw WriteError(name, ELOOP);
 }
 
 }  // namespace ghtrack

@@ -18,11 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, int error) {
-  throw WriteError(path.string() +
-                   ": error: cannot write: " + std::generic_category().message(error));
-}
-
 bool is_folder(int at, const std::string& name) {
   struct stat about {};
   return ::fstatat(at, name.c_str(), &about, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(about.st_mode);
@@ -83,7 +78,7 @@ ResultFolder::~ResultFolder() {
 
 void ResultFolder::lock() {
   descriptor_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(folder_, errno);
+  if (descriptor_ < 0) throw WriteError(folder_, errno);
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return remove_stale_scratch();
   // Some network file systems have no locks on folders: names of their own keep processes apart.
   if (errno != EWOULDBLOCK) return;
@@ -116,7 +111,7 @@ std::vector<std::string> ResultFolder::made(bool partial_only) const {
 
 void ResultFolder::put(const std::vector<std::string>& names) {
   const int from = ::open(scratch().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (from < 0) fail(folder_, errno);
+  if (from < 0) throw WriteError(folder_, errno);
   Exchange exchange(from, descriptor_);
   int error = 0;
   for (const std::string& name : names) {
@@ -124,7 +119,7 @@ void ResultFolder::put(const std::vector<std::string>& names) {
     if (error == 0) continue;
     exchange.take_back();
     ::close(from);
-    fail(folder_ / name, error);
+    throw WriteError(folder_ / name, error);
   }
   ::fsync(descriptor_);
   ::close(from);

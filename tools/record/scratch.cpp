@@ -60,20 +60,15 @@ std::string random_letters() {
   return letters;
 }
 
-[[noreturn]] void fail(const fs::path& path, int error) {
-  throw WriteError(path.string() +
-                   ": error: cannot write: " + std::generic_category().message(error));
-}
-
 /// Makes something under a name that is not there yet.
 template <class Name, class Make>
 fs::path make_new(const fs::path& target, const Name& name, const Make& make) {
   for (int i = 0; i < kMostTries; ++i) {
     const fs::path path = name(random_letters());
     if (make(path)) return path;
-    if (errno != EEXIST) fail(target, errno);
+    if (errno != EEXIST) throw WriteError(target, errno);
   }
-  fail(target, EEXIST);
+  throw WriteError(target, EEXIST);
 }
 
 /// Removes what is in an open folder, and deeper. No library call in it allocates memory.

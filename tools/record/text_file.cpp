@@ -20,7 +20,6 @@ namespace ghtrack {
 namespace {
 
 constexpr std::size_t kLongestFile = std::size_t{256} << 20;
-constexpr std::size_t kLongestLine = std::size_t{64} << 10;
 constexpr std::int64_t kLargestWhole = std::int64_t{1} << 53;
 
 /// Closes a file descriptor at the end of its scope.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,6 +9,8 @@
 #include <vector>
 
 namespace ghtrack {
+
+inline constexpr std::size_t kLongestLine = std::size_t{64} << 10;  // that is read [bytes]
 
 /// What is wrong with a text file, gathered so that the user sees all of it at once.
 class Findings {

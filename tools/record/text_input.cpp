@@ -19,7 +19,6 @@ namespace ghtrack {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 18;
-constexpr std::size_t kLongestLine = std::size_t{64} << 10;
 constexpr int kPatience = 2000;  // how long a named pipe may be without a writer [ms]
 
 /// Whether all bytes are printable ASCII, tabs or line ends. Branchless, so that compilers

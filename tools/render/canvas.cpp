@@ -12,7 +12,7 @@ namespace ghtrack::render {
 
 namespace {
 
-constexpr double kMargin = 64.0;  // [px] beyond the edge at which lines are cut
+constexpr double kBeyond = 64.0;  // [px] beyond the edge at which lines are cut
 
 cv::Scalar scalar(Color color) { return {1.0 * color.blue, 1.0 * color.green, 1.0 * color.red}; }
 
@@ -42,10 +42,10 @@ struct Edge {
 };
 
 std::array<Edge, 4> edges(cv::Size size) {
-  return {{{-1, 0, kMargin},
-           {1, 0, size.width + kMargin},
-           {0, -1, kMargin},
-           {0, 1, size.height + kMargin}}};
+  return {{{-1, 0, kBeyond},
+           {1, 0, size.width + kBeyond},
+           {0, -1, kBeyond},
+           {0, 1, size.height + kBeyond}}};
 }
 
 Pixel crossing(const Edge& edge, Pixel inside, Pixel outside) {

@@ -10,7 +10,7 @@ namespace ghtrack::render {
 namespace {
 
 constexpr double kColumn = 110.0;  // [px] between numbers along the time axis, about
-constexpr double kRow = 34.0;      // [px] between numbers along the other, about
+constexpr double kNumberRow = 34.0;  // [px] between numbers along the other, about
 
 double step_of(const std::vector<double>& ticks) {
   return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
@@ -45,7 +45,7 @@ void Chart::draw_axes(Canvas& canvas, std::u32string_view title) const {
     return std::max(1, static_cast<int>(length / style_.length(spacing)));
   };
   const std::vector<double> values =
-      round_ticks(values_.low, values_.high, count(box_.height, kRow));
+      round_ticks(values_.low, values_.high, count(box_.height, kNumberRow));
   for (const double value : values) {
     const Pixel left = at(times_.low, value);
     canvas.line(left, at(times_.high, value), style_.theme().major_grid);

@@ -18,8 +18,7 @@ namespace ghtrack::render {
 
 namespace {
 
-constexpr double kRing = 9.0;     // radius of a track's ring [px of 720 lines]
-constexpr double kPlate = 0.62;   // opacity of the ground behind a label
+constexpr double kRing = 9.0;  // radius of a track's ring [px of 720 lines]
 constexpr int kLabelLetters = 15;
 
 /// Draws tracks on pictures and remembers where they were.

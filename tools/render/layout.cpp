@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kHudHeight = 56.0;
 constexpr double kHeaderHeight = 46.0;  // two lines
-constexpr double kGap = 4.0;
+constexpr double kPanelGap = 4.0;
 constexpr double kPlotShare = 0.2;      // of the picture's height
 constexpr double kCloseUpShare = 0.27;  // of the panel's width and height at least
 constexpr double kCloseUpMargin = 12.0;
@@ -61,7 +61,7 @@ std::vector<Viewport> corners_of(const Viewport& panel, const std::vector<CloseU
     const auto before =
         std::count_if(close_ups.begin(), close_ups.begin() + static_cast<std::ptrdiff_t>(i),
                       [&](const CloseUp& other) { return other.corner == close_ups[i].corner; });
-    const double step = static_cast<double>(before) * (place.height + style.length(kGap));
+    const double step = static_cast<double>(before) * (place.height + style.length(kPanelGap));
     place.top += is_top ? step : -step;
     places.push_back(place);
   }
@@ -76,7 +76,7 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
   const double width = options.width;
   const double height = options.height;
   const double header = count > 1 ? style.length(kHeaderHeight) : 0.0;
-  const double gap = count > 1 ? style.length(kGap) : 0.0;
+  const double gap = count > 1 ? style.length(kPanelGap) : 0.0;
   const bool has_plots = count > 1 || options.layers.shows(Layer::kInsets);
   const double strip = has_plots ? kPlotShare * height : 0.0;
 

@@ -8,14 +8,14 @@ namespace ghtrack::render {
 
 namespace {
 
-constexpr double kMostPoints = 400.0;     // of a path: no picture resolves more
+constexpr double kMostOfPath = 400.0;     // of a path: no picture resolves more
 constexpr std::size_t kMostMarks = 1500;  // more would be a carpet
 constexpr double kJump = 1.0;             // [s] without an object: a new path
 
 }  // namespace
 
 SceneMemory::SceneMemory(double trail, double duration)
-    : trail_(trail), step_(std::min(trail, duration) / kMostPoints) {}
+    : trail_(trail), step_(std::min(trail, duration) / kMostOfPath) {}
 
 double SceneMemory::age(double time) const {
   return std::isfinite(trail_) ? std::clamp((now_ - time) / std::max(trail_, 1e-9), 0.0, 1.0) : 0.0;

@@ -14,6 +14,8 @@ struct Typefaces {
   Font bold{Font::Weight::kBold};
 };
 
+inline constexpr double kPlate = 0.62;  // opacity of the ground behind a label
+
 /// Colours, and sizes that grow with the picture: all are given for 1280 × 720 pixels.
 struct Style {
   double unit = 1.0;  // [px] of this picture per pixel of one with 1280 × 720

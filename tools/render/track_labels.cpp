@@ -20,8 +20,6 @@ constexpr double kBodyCost = 0.7;    // of hiding an object or an estimate
 constexpr double kNameCost = 0.3;    // of hiding the name of a field of view
 constexpr double kTrailCost = 0.05;  // of hiding a piece of a trail
 constexpr std::size_t kCrowd = 60;   // of which labels must not hide anybody
-constexpr double kPlate = 0.62;      // opacity of the ground behind a label
-
 /// A label and what it looks like.
 struct Caption {
   LabelRequest request;

@@ -1,5 +1,7 @@
 #include "tools/report/headings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 #include <variant>
@@ -93,6 +95,10 @@ std::string in_words(std::string_view sweep) {
     sweep.remove_prefix(std::min(end + 2, sweep.size()));
   }
   return words;
+}
+
+std::string range_text(const std::optional<Interval>& interval) {
+  return interval ? fmt::format("{:.3g} to {:.3g}", interval->low, interval->high) : "";
 }
 
 }  // namespace ghtrack::report

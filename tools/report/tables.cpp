@@ -23,10 +23,6 @@ std::string number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.3g}", *value) : "";
 }
 
-std::string range(const std::optional<Interval>& interval) {
-  return interval ? fmt::format("{:.3g} to {:.3g}", interval->low, interval->high) : "";
-}
-
 Json sort_key(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(fmt::format("{:.6g}", *value)) : Json("");
 }
@@ -152,12 +148,12 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell) {
     if (row.cell != cell || !row.object.empty()) continue;
     const MetricInfo& metric = info(row.metric);
     std::string difference = number(row.difference);
-    if (row.difference_ci95) difference += fmt::format(" ({})", range(row.difference_ci95));
+    if (row.difference_ci95) difference += fmt::format(" ({})", range_text(row.difference_ci95));
     rows.push_back({{"subject", row.regime.empty() ? "whole scene" : row.regime},
                     {"metric", with_unit(metric)},
                     {"filter", comparison.filters[row.filter]},
                     {"mean", mean_text(row, comparison.cells[cell].runs)},
-                    {"ci95", range(row.ci95)},
+                    {"ci95", range_text(row.ci95)},
                     {"predicted", number(row.predicted)},
                     {"difference", difference},
                     {"verdict", to_string(row.significance)},

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tools/report/figures.hpp"
+#include "tools/report/headings.hpp"
 #include "tools/report/report.hpp"
 #include "tools/report/report_page.hpp"
 
@@ -17,10 +18,6 @@ namespace {
 using Json = nlohmann::json;
 
 std::string number(double value) { return fmt::format("{:.3g}", value); }
-
-std::string range(const std::optional<Interval>& interval) {
-  return interval ? fmt::format("{:.3g} to {:.3g}", interval->low, interval->high) : "";
-}
 
 Json references_json(const Hindsight& hindsight) {
   Json all = Json::array();
@@ -39,9 +36,9 @@ Json judged_rows(const TunedRegime& regime) {
                     {"gains", judged.gains},
                     {"trained", number(judged.trained_rmse)},
                     {"rmse", number(judged.rmse)},
-                    {"ci95", range(judged.ci95)},
+                    {"ci95", report::range_text(judged.ci95)},
                     {"difference", number(judged.difference)},
-                    {"difference_ci95", range(judged.difference_ci95)}});
+                    {"difference_ci95", report::range_text(judged.difference_ci95)}});
   }
   return rows;
 }

@@ -41,7 +41,7 @@ GainFilter<2> filter_of(const Gains& gains) {
 }
 
 /// Five that are alike, one that was missed once, one that came to an end before.
-class SomeObjects : public testing::Test {
+class SomeObjects : public ::testing::Test {
  protected:
   void SetUp() override {
     for (int i = 0; i < 5; ++i) objects_.push_back(object_of(i, 60));

@@ -18,7 +18,7 @@ const char* const kSpeedsUp =
     "train: {stock: ideal, speed: 20, drive: [{at: 8, accelerate: 1}, {at: 12, accelerate: 0}]}";
 
 /// Something followed by one filter of every kind.
-Comparison compared(const std::string& sensors, const std::string& motion = kSpeedsUp) {
+Comparison compared_sensors(const std::string& sensors, const std::string& motion = kSpeedsUp) {
   const std::string text = R"(
 name: predicted
 duration: 20
@@ -70,19 +70,19 @@ void expect_predicted(const Comparison& comparison) {
 // Property: of every kind of filter, in matched and mismatched motion, the error, lag and innovation
 // are predicted.
 TEST(Prediction, IsWithinTheIntervalForEveryKindOfFilter) {
-  expect_predicted(compared("[{name: cam, rate: 10, noise: 0.5}]"));
+  expect_predicted(compared_sensors("[{name: cam, rate: 10, noise: 0.5}]"));
 }
 
 // Property: and with misses, two sensors of different rates, phases and noise, and a bias.
 TEST(Prediction, HoldsWithMissesSeveralSensorsAndBias) {
-  expect_predicted(compared(
+  expect_predicted(compared_sensors(
       "[{name: cam, rate: 10, noise: 0.5, detection_probability: 0.8, bias: [0.2, 0.1]}, "
       "{name: far, rate: 3, phase: 0.037, noise: 2}]"));
 }
 
 // Property: and with heavy tails and outliers.
 TEST(Prediction, HoldsWithHeavyTails) {
-  expect_predicted(compared(
+  expect_predicted(compared_sensors(
       "[{name: cam, rate: 10, noise: 0.5, student_dof: 5, outlier_probability: 0.02, "
       "outlier_scale: 4}]"));
 }
@@ -93,14 +93,14 @@ TEST(Prediction, HoldsWithRadar) {
   const std::string radar =
       "[{name: radar, rate: 10, site: [0, -200], kind: radar, sigma_range: 1, sigma_bearing_deg: "
       "0.3}]";
-  expect_predicted(compared(radar));
-  expect_predicted(compared(radar, "ball: {position: [0, 2], velocity: [15, 70]}"));
+  expect_predicted(compared_sensors(radar));
+  expect_predicted(compared_sensors(radar, "ball: {position: [0, 2], velocity: [15, 70]}"));
 }
 
 // Property: errors without a variance have no prediction.
 TEST(Prediction, IsAbsentWhereItCannotBeKnown) {
   for (const ComparisonRow& row :
-       compared("[{name: cam, rate: 10, noise: 0.5, student_dof: 1.5}]").rows) {
+       compared_sensors("[{name: cam, rate: 10, noise: 0.5, student_dof: 1.5}]").rows) {
     EXPECT_FALSE(row.predicted) << info(row.metric).name;
   }
 }

@@ -10,8 +10,8 @@
 namespace ghtrack::html {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Property: what a user names cannot become an element or leave an attribute.
 TEST(Template, EscapesValues) {

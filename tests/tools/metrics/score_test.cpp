@@ -13,12 +13,13 @@
 namespace ghtrack {
 namespace {
 
-using Points = std::vector<IdentifiedPoint>;
+using IdentifiedPoints = std::vector<IdentifiedPoint>;
 
 // Derived: three instants computed by hand: an exact pair, a pair 3–4–5 apart, and a track alone.
 TEST(Score, AveragesOverTheInstantsOfBothFiles) {
-  const Points truth = {{0.1, 1, {0.0, 0.0}}, {0.2, 1, {1.0, 0.0}}};
-  const Points tracks = {{0.1, 7, {0.0, 0.0}}, {0.2 + 1e-13, 7, {4.0, 4.0}}, {0.3, 7, {5.0, 5.0}}};
+  const IdentifiedPoints truth = {{0.1, 1, {0.0, 0.0}}, {0.2, 1, {1.0, 0.0}}};
+  const IdentifiedPoints tracks = {
+      {0.1, 7, {0.0, 0.0}}, {0.2 + 1e-13, 7, {4.0, 4.0}}, {0.3, 7, {5.0, 5.0}}};
   const ScoreResult result = score_points(truth, tracks, {.gospa = {.cutoff = 10.0}});
   ASSERT_EQ(result.steps, 3);
   EXPECT_NEAR(result.gospa, (0.0 + 5.0 + std::sqrt(50.0)) / 3.0, 1e-12);
@@ -32,7 +33,7 @@ TEST(Score, AveragesOverTheInstantsOfBothFiles) {
 
 // Property: the JSON has every promised key, and null where nothing was matched.
 TEST(Score, WritesThePromisedKeys) {
-  const auto json = to_json(score_points(Points{}, Points{}, {}));
+  const auto json = to_json(score_points(IdentifiedPoints{}, IdentifiedPoints{}, {}));
   for (const char* key :
        {"gospa", "gospa_localisation", "gospa_missed", "gospa_false", "ospa", "mota", "motp",
         "id_switches", "fragmentations", "idf1", "idp", "idr", "hota", "deta", "assa", "rmse", "tgospa",
@@ -81,8 +82,8 @@ TEST(Score, ScoresBoxesOfAGeneratedStreet) {
 }
 
 /// One object on the x axis at 10 m/s, every `period` seconds from `start` on, `count` times.
-Points line(double start, double period, int count) {
-  Points points;
+IdentifiedPoints line(double start, double period, int count) {
+  IdentifiedPoints points;
   for (int k = 0; k < count; ++k) {
     const double t = start + period * k;
     points.push_back({t, 1, {10.0 * t, 0.0}});
@@ -96,7 +97,7 @@ TEST(Score, MatchesInstantsOfDifferentRates) {
   for (const double truth_period : {0.01, 0.05, 0.1, 0.2}) {
     for (const double track_period : {0.01, 0.05, 0.1, 0.2}) {
       for (const double phase : {0.0, 0.3}) {
-        SCOPED_TRACE(testing::Message() << truth_period << " " << track_period << " " << phase);
+        SCOPED_TRACE(::testing::Message() << truth_period << " " << track_period << " " << phase);
         const double shorter = std::min(truth_period, track_period);
         const int truths = static_cast<int>(std::round(5.0 / truth_period));
         const int tracks = static_cast<int>(std::round(5.0 / track_period));
@@ -113,7 +114,7 @@ TEST(Score, MatchesInstantsOfDifferentRates) {
 // Derived: tracks at 10 Hz that are silent from 2 s to 3 s of a truth at 100 Hz: the gap stands for
 // nine instants of theirs, which are missed.
 TEST(Score, ChargesGapsOfTheSlowerFileAtItsRate) {
-  Points tracks = line(0.0, 0.1, 50);
+  IdentifiedPoints tracks = line(0.0, 0.1, 50);
   std::erase_if(tracks, [](const auto& p) { return p.time > 2.05 && p.time < 2.95; });
   const ScoreResult result = score_points(line(0.0, 0.01, 500), tracks, {});
   EXPECT_EQ(result.instants.matched, 41);
@@ -127,12 +128,12 @@ TEST(Score, ChargesGapsOfTheSlowerFileAtItsRate) {
 // are 3 m behind, which is what a velocity that is 1 m/s too low makes 0.3 m.
 TEST(Score, ScoresWhatWasKnownAtTheWallClock) {
   const auto scored = [](double velocity) {
-    Points tracks = line(0.0, 0.1, 50);
+    IdentifiedPoints tracks = line(0.0, 0.1, 50);
     for (IdentifiedPoint& point : tracks) point.velocity = {velocity, 0.0};
-    const Points truth = line(0.0, 0.1, 50);
+    const IdentifiedPoints truth = line(0.0, 0.1, 50);
     std::size_t objects = 0, estimates = 0;
-    const auto next_of = [](const Points& points, std::size_t& i) {
-      return i < points.size() ? Points{points[i++]} : Points{};
+    const auto next_of = [](const IdentifiedPoints& points, std::size_t& i) {
+      return i < points.size() ? IdentifiedPoints{points[i++]} : IdentifiedPoints{};
     };
     const AtClock clocked = at_clock({[&] { return next_of(truth, objects); }, 0.1},
                                      {[&] { return next_of(tracks, estimates); }, 0.1}, 0.25);

@@ -23,7 +23,7 @@ using ::testing::StartsWith;
 TEST(Axis, HasRoundTicks) {
   for (const double low : {-1e6, -3.7, 0.0, 1e-9, 12.0}) {
     for (const double span : {1e-8, 0.3, 7.0, 1234.0, 1e7}) {
-      SCOPED_TRACE(testing::Message() << low << " " << span);
+      SCOPED_TRACE(::testing::Message() << low << " " << span);
       const Axis axis = axis_over(low, low + span, 6.0, false);
       EXPECT_LE(axis.low, low);
       EXPECT_GE(axis.high, low + span);

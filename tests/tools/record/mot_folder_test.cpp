@@ -69,7 +69,7 @@ TEST(EvaluationFolder, HasTheLayoutOfTrackEval) {
   EXPECT_EQ(folder.read("eval/gt/MOT15-train/street/gt/gt.txt"), "1,1,10,20,30,40,1,-1,-1,-1\n");
   EXPECT_EQ(folder.read("eval/gt/MOT15-train/street/seqinfo.ini"), kInfo);
   EXPECT_THAT(folder.read("eval/gt/MOT15-train/square/seqinfo.ini"),
-              testing::HasSubstr("seqLength=7"));
+              ::testing::HasSubstr("seqLength=7"));
   EXPECT_EQ(folder.read("eval/trackers/MOT15-train/ghtrack/data/street.txt"),
             "1,1,10,20,30,40,1,-1,-1,-1\n");
   EXPECT_EQ(folder.read("eval/trackers/MOT15-train/ghtrack/data/alley.txt"), "");

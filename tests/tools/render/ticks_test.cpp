@@ -14,7 +14,7 @@ TEST(Ticks, AreMultiplesOfOneTwoOrFive) {
   EXPECT_DOUBLE_EQ(round_step(2.0), 2.0);
   EXPECT_DOUBLE_EQ(round_step(30.0), 50.0);
   EXPECT_DOUBLE_EQ(round_step(0.06), 0.1);
-  EXPECT_THAT(round_ticks(-1.0, 3.9, 5), testing::ElementsAre(-1.0, 0.0, 1.0, 2.0, 3.0));
+  EXPECT_THAT(round_ticks(-1.0, 3.9, 5), ::testing::ElementsAre(-1.0, 0.0, 1.0, 2.0, 3.0));
 }
 
 // Property: axes without an extent have no ticks rather than endless ones.

@@ -19,12 +19,12 @@ namespace ghtrack::render {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class Video : public testing::Test {
+class Video : public ::testing::Test {
  protected:
   Video() {
-    std::string name = testing::TempDir() + "videoXXXXXX";
+    std::string name = ::testing::TempDir() + "videoXXXXXX";
     folder_ = ::mkdtemp(name.data());
   }
   ~Video() override { fs::remove_all(folder_); }
@@ -95,7 +95,7 @@ TEST_F(Video, IsH264InYuv420pWithTheFramesThatWereAdded) {
     for (const char* fact : {"codec_name=h264", "pix_fmt=yuv420p", "codec_tag_string=avc1",
                              "width=320", "height=180", "r_frame_rate=25/1", "nb_read_frames=12"})
       EXPECT_THAT(facts, HasSubstr(fact));
-    EXPECT_THAT(files(), testing::ElementsAre("run.mp4"));
+    EXPECT_THAT(files(), ::testing::ElementsAre("run.mp4"));
   }
 }
 
@@ -133,7 +133,7 @@ TEST_F(Video, LeavesNothingWhenItIsGivenUp) {
       VideoWriter video(options("run.mp4", encoder), scene.drawing());
       for (int i = 0; i < 3; ++i) video.add_frame(scene.next());
     }
-    EXPECT_THAT(files(), testing::IsEmpty());
+    EXPECT_THAT(files(), ::testing::IsEmpty());
   }
 }
 
@@ -151,7 +151,7 @@ TEST_F(Video, RefusesNamesThatAreNotPlain) {
   EXPECT_THROW(check_request(video), RequestError);
   EXPECT_THAT(message_of<RequestError>([&] { check_request(options("x.mov")); }),
               HasSubstr("available: mp4, webm, avi, mkv, gif, png"));
-  EXPECT_THAT(files(), testing::IsEmpty());
+  EXPECT_THAT(files(), ::testing::IsEmpty());
 }
 
 // Property: sizes must be even, rates finite and in range; the message names the option.
@@ -199,7 +199,7 @@ TEST_F(Video, FailsOnAFullDisk) {
       video.width = 1280;
       video.height = 720;
       EXPECT_THAT(message_of<OutputError>([&] { write(video, 40); }), HasSubstr("space"));
-      EXPECT_THAT(files(), testing::IsEmpty()) << name;
+      EXPECT_THAT(files(), ::testing::IsEmpty()) << name;
     }
   ::umount(folder_.c_str());
 }

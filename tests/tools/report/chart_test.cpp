@@ -8,9 +8,9 @@
 namespace ghtrack::report {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<std::string> labels(const Axis& axis) {
   std::vector<std::string> texts;

@@ -30,7 +30,7 @@ std::vector<TrackEstimate> tracked(const OfflineConfig& config, const std::vecto
   return tracks;
 }
 
-class Units : public testing::TestWithParam<std::tuple<double, double, double>> {};
+class Units : public ::testing::TestWithParam<std::tuple<double, double, double>> {};
 
 // Property: there are no units. Lengths and times that are multiplied by constants give the same
 // tracks multiplied by them: exactly by powers of two, by others up to rounding.
@@ -56,11 +56,11 @@ TEST_P(Units, ChangeNothingButTheScale) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Exactly, Units,
-                         testing::Values(std::tuple(1024.0, 0.0625, 1e-9),
-                                         std::tuple(1.0 / 4096.0, 32.0, 1e-9)));
+                         ::testing::Values(std::tuple(1024.0, 0.0625, 1e-9),
+                                           std::tuple(1.0 / 4096.0, 32.0, 1e-9)));
 INSTANTIATE_TEST_SUITE_P(UpToRounding, Units,
-                         testing::Values(std::tuple(1000.0, 0.04, 1e-3),
-                                         std::tuple(1e-5, 3600.0, 1e-3)));
+                         ::testing::Values(std::tuple(1000.0, 0.04, 1e-3),
+                                           std::tuple(1e-5, 3600.0, 1e-3)));
 
 // Property: what is learned leaves nothing open, and learning again from it changes nothing.
 TEST(LearnedConfig, SaysAllThatThereIsToSay) {

@@ -45,7 +45,7 @@ struct Reference {
   int id_switches;
 };
 
-class SetA : public testing::TestWithParam<Reference> {};
+class SetA : public ::testing::TestWithParam<Reference> {};
 
 ScoreResult score_of(const char* name, const OfflineConfig& config) {
   const std::string stem = std::string(GHTRACK_SOURCE_DIR) + "/tests/reference/tracking/" + name;
@@ -85,10 +85,10 @@ TEST_P(SetA, TheTextbookTrackerComesCloseToTheKalmanTracker) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Reference, SetA,
-                         testing::Values(Reference{"A_n10", 6.1790, 0},
-                                         Reference{"A_n50", 14.3874, 1},
-                                         Reference{"A_n100", 20.4130, 5},
-                                         Reference{"A_n200", 29.3608, 12}));
+                         ::testing::Values(Reference{"A_n10", 6.1790, 0},
+                                           Reference{"A_n50", 14.3874, 1},
+                                           Reference{"A_n100", 20.4130, 5},
+                                           Reference{"A_n200", 29.3608, 12}));
 
 Scan scan_at(double time, double x) {
   return {.time = time,

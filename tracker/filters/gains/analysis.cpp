@@ -11,7 +11,7 @@
 namespace ghtrack {
 namespace {
 
-void require_stable(const Gains& gains) {
+void refuse_unstable(const Gains& gains) {
   if (const auto violated = violated_inequality(gains)) {
     throw std::invalid_argument("unstable gains: " + std::string(*violated) + " is violated");
   }
@@ -142,7 +142,7 @@ double damping_ratio(const Gains& gains) {
 }
 
 VarianceReduction variance_reduction(const Gains& gains, double dt) {
-  require_stable(gains);
+  refuse_unstable(gains);
   const auto [order, g, h, k] = gains;
   const double t2 = dt * dt;
   if (order == 0) {
@@ -170,7 +170,7 @@ double innovation_variance(const Gains& gains, double sigma, double dt) {
 }
 
 Lag steady_lag(const Gains& gains, double dt, double next_derivative) {
-  require_stable(gains);
+  refuse_unstable(gains);
   const auto [order, g, h, k] = gains;
   if (order == 0) {
     const double prediction = next_derivative * dt / g;
@@ -195,7 +195,7 @@ double predicted_rmse(const Gains& gains, double sigma, double dt, double next_d
 }
 
 TransientEnergy transient_energy(const Gains& gains, double dt) {
-  require_stable(gains);
+  refuse_unstable(gains);
   const auto [order, g, h, k] = gains;
   const double t2 = dt * dt;
   if (order == 0) return {.position = 1.0 / (g * (2.0 - g))};
@@ -210,7 +210,7 @@ TransientEnergy transient_energy(const Gains& gains, double dt) {
 }
 
 double settling_updates(const Gains& gains, double fraction) {
-  require_stable(gains);
+  refuse_unstable(gains);
   return std::max(1.0, portable::log(fraction) / portable::log(std::abs(poles(gains).front())));
 }
 
