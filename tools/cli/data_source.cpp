@@ -31,4 +31,9 @@ void tell_what_was_left_out(std::int64_t left_out, const std::vector<std::string
   for (const std::string& remark : remarks) tell("  {}", remark);
 }
 
+void tell_if_sorted(const std::string& path, bool in_order, const Manners& manners) {
+  if (in_order || manners.quiet) return;
+  tell("ghtrack: {}: sorted by frame, in memory", path);
+}
+
 }  // namespace ghtrack::cli

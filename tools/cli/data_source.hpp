@@ -16,4 +16,7 @@ void tell_what_was_read(const std::string& understood, std::int64_t left_out,
 void tell_what_was_left_out(std::int64_t left_out, const std::vector<std::string>& remarks,
                             const Manners& manners);
 
+/// Says that boxes whose file is not in the order of frames were sorted, which takes memory.
+void tell_if_sorted(const std::string& path, bool in_order, const Manners& manners);
+
 }  // namespace ghtrack::cli

@@ -128,11 +128,12 @@ class Extras {
 ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, Extras& extras,
                             const Manners& manners) {
   if (options.latency) throw UsageError("score: --latency is for points, not for boxes");
-  const std::vector<MotRow> truth = read_mot_file(pair.truth, MotKind::kTruth);
-  const std::vector<MotRow> tracks = read_mot_file(pair.tracks, MotKind::kResult);
+  MotReader truth(pair.truth, MotKind::kTruth, std::nullopt, stop_if_interrupted);
+  MotReader tracks(pair.tracks, MotKind::kResult, std::nullopt, stop_if_interrupted);
   const bool automatic = options.benchmark == "auto";
-  const auto named = automatic ? std::optional(recognise_benchmark(pair.truth, truth))
-                               : benchmark_named(options.benchmark);
+  const auto named = automatic
+                         ? std::optional(recognise_benchmark(pair.truth, truth.has_categories()))
+                         : benchmark_named(options.benchmark);
   if (!named) {
     throw UsageError(fmt::format(
         "score: --benchmark is '{}'; allowed are auto, MOT15, MOT16, MOT17, MOT20, none and, for "
@@ -142,8 +143,11 @@ ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, 
   if (automatic && !manners.quiet) {
     tell("ghtrack: {}: scored under the rules of {}", pair.truth, to_string(*named));
   }
-  return score_boxes(*named, pair.truth, truth, tracks, settings(options, pair, true),
-                     extras.of(pair.name));
+  tell_if_sorted(pair.truth, truth.in_order(), manners);
+  tell_if_sorted(pair.tracks, tracks.in_order(), manners);
+  return score_boxes(
+      *named, pair.truth, [&] { return truth.next(); }, [&] { return tracks.next(); },
+      settings(options, pair, true), extras.of(pair.name));
 }
 
 /// Says which instants had no counterpart, and what became of them.
@@ -207,20 +211,27 @@ struct Part {
 /// for.
 void add_labels(const ScoreOptions& options, const ScorePair& pair, std::vector<Part>& parts,
                 const Manners& manners) {
-  const auto truth = std::make_shared<KittiFile>(read_kitti_file(pair.truth, MotKind::kTruth));
-  const auto tracks = std::make_shared<KittiFile>(read_kitti_file(pair.tracks, MotKind::kResult));
+  const auto truth =
+      std::make_shared<KittiReader>(pair.truth, MotKind::kTruth, stop_if_interrupted);
+  const auto tracks =
+      std::make_shared<KittiReader>(pair.tracks, MotKind::kResult, stop_if_interrupted);
+  tell_if_sorted(pair.truth, truth->in_order(), manners);
+  tell_if_sorted(pair.tracks, tracks->in_order(), manners);
   std::string kinds;
   for (const KittiClass kind : kKittiClasses) {
     const bool automatic = options.benchmark == "auto";
-    if (automatic ? !has_class(*truth, kind) && !has_class(*tracks, kind)
+    if (automatic ? !has_class(truth->types(), kind) && !has_class(tracks->types(), kind)
                   : kind != kitti_class_named(options.benchmark)) {
       continue;
     }
     const std::string name = fmt::format("{}, {}", pair.name, to_string(kind));
     kinds += fmt::format("{}{}", kinds.empty() ? "" : " and ", to_string(kind));
     parts.push_back({name, [=, &options](Extras& extras) {
-                       return score_labels(kind, *truth, *tracks, settings(options, pair, true),
-                                           extras.of(name));
+                       truth->rewind();
+                       tracks->rewind();
+                       return score_labels(
+                           kind, [&] { return truth->next(); }, [&] { return tracks->next(); },
+                           settings(options, pair, true), extras.of(name));
                      }});
   }
   if (kinds.empty()) {

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -36,6 +37,7 @@
 #include "tools/run/offline.hpp"
 #include "tools/run/online.hpp"
 #include "tools/run/shared_times.hpp"
+#include "tools/record/atomic_file.hpp"
 #include "tools/record/kitti_file.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/mot_folder.hpp"
@@ -49,12 +51,12 @@ namespace fs = std::filesystem;
 /// Wall time of each stage over all files [s].
 class StageTimes {
  public:
-  enum Stage { kRead, kLearn, kTrack, kWrite };
+  enum Stage { kOther, kRead, kLearn, kTrack, kWrite };
 
-  /// Runs one stage.
+  /// Runs one stage, whose time does not count for the stage that it is part of.
   template <class Work>
   auto of(Stage stage, Work work) {
-    const Timer timer(seconds_[stage]);
+    const Timer timer(*this, stage);
     return work();
   }
   void count_scans(std::size_t scans) { scans_ += scans; }
@@ -82,14 +84,25 @@ class StageTimes {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  /// Makes a stage the present one while it lives.
   struct Timer {
-    explicit Timer(double& seconds) : sum(seconds) {}
-    ~Timer() { sum += std::chrono::duration<double>(Clock::now() - start).count(); }
-    double& sum;
-    Clock::time_point start = Clock::now();
+    Timer(StageTimes& of, Stage stage) : times(of), before(times.change(stage)) {}
+    ~Timer() { times.change(before); }
+    StageTimes& times;
+    Stage before;
   };
 
-  double seconds_[4] = {};
+  Stage change(Stage stage) {
+    const auto now = Clock::now();
+    seconds_[now_] += std::chrono::duration<double>(now - since_).count();
+    since_ = now;
+    return std::exchange(now_, stage);
+  }
+
+  double seconds_[5] = {};
+  Stage now_ = kOther;
+  Clock::time_point since_ = Clock::now();
   std::optional<StepTimes> steps_;
   std::size_t scans_ = 0;
 };
@@ -353,10 +366,14 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   film.write(wanted, summary.period, summary.origin, manners);
 }
 
+/// What is filmed of a sequence, all of it in memory.
+struct SequenceRows {
+  std::vector<MotRow> detections, tracks;  // by frame
+};
+
 /// Films the boxes of a sequence over its images.
 void film_sequence(const TrackOptions& options, const MotSequence& sequence,
-                   const std::vector<MotRow>& detections, const BoxTracks& tracks,
-                   const Manners& manners) {
+                   const SequenceRows& rows, const Manners& manners) {
   constexpr double kUsualRate = 30.0;  // [Hz]
   FilmOptions wanted = options.film;
   const fs::path images = sequence.detections.parent_path().parent_path() / "img1";
@@ -371,104 +388,170 @@ void film_sequence(const TrackOptions& options, const MotSequence& sequence,
     wanted.width = sequence.info->width;
     wanted.height = sequence.info->height;
   }
-  TrackFilm::of_boxes(tracks.rows, detections, *wanted.frame_rate)
+  TrackFilm::of_boxes(rows.tracks, rows.detections, *wanted.frame_rate)
       .write(wanted, 1.0 / *wanted.frame_rate, std::nullopt, manners);
 }
 
 /// What the boxes of each track show: what most of the detections in their places do.
-std::map<std::int64_t, std::string> types_of(const std::vector<MotRow>& tracks,
-                                             const std::vector<KittiRow>& detections) {
-  std::map<std::int64_t, std::map<std::string, int>> votes;
-  std::size_t begin = 0;
-  for (const MotRow& track : tracks) {
-    while (begin < detections.size() && detections[begin].box.frame < track.frame) ++begin;
-    const auto distance = [&](const KittiRow& row) {
-      return std::hypot(row.box.left + 0.5 * row.box.width - track.left - 0.5 * track.width,
-                        row.box.top + 0.5 * row.box.height - track.top - 0.5 * track.height);
-    };
-    const KittiRow* nearest = nullptr;
-    for (std::size_t i = begin; i < detections.size() && detections[i].box.frame == track.frame;
-         ++i) {
-      if (nearest == nullptr || distance(detections[i]) < distance(*nearest)) {
-        nearest = &detections[i];
+class TypeVotes {
+ public:
+  /// @param detections  read as far as the frames of the tracks before
+  explicit TypeVotes(KittiReader& detections) : detections_(detections) {}
+
+  /// @param tracks  of the next frame
+  void add(std::span<const MotRow> tracks) {
+    const std::int32_t frame = tracks.front().frame;
+    while (seen_.empty() || seen_.front().box.frame < frame) {
+      seen_ = detections_.next();
+      if (seen_.empty()) return;
+    }
+    if (seen_.front().box.frame != frame) return;
+    for (const MotRow& track : tracks) {
+      const auto distance = [&](const KittiRow& row) {
+        return std::hypot(row.box.left + 0.5 * row.box.width - track.left - 0.5 * track.width,
+                          row.box.top + 0.5 * row.box.height - track.top - 0.5 * track.height);
+      };
+      const KittiRow* nearest = nullptr;
+      for (const KittiRow& row : seen_) {
+        if (row.type == kNotLabelled) continue;
+        if (nearest == nullptr || distance(row) < distance(*nearest)) nearest = &row;
+      }
+      if (nearest != nullptr && distance(*nearest) < 0.5 * track.width) {
+        ++votes_[track.id][nearest->type];
       }
     }
-    if (nearest != nullptr && distance(*nearest) < 0.5 * track.width) {
-      ++votes[track.id][nearest->type];
+  }
+
+  std::map<std::int64_t, std::string> types() const {
+    std::map<std::int64_t, std::string> types;
+    for (const auto& [id, counts] : votes_) {
+      types[id] = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
+                    return a.second < b.second;
+                  })->first;
     }
+    return types;
   }
-  std::map<std::int64_t, std::string> types;
-  for (const auto& [id, counts] : votes) {
-    types[id] = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
-                  return a.second < b.second;
-                })->first;
-  }
-  return types;
-}
 
-/// The rows of a result, in the format of its detections.
-std::string result_rows(const std::vector<MotRow>& tracks, const fs::path& detections) {
-  std::string text;
-  if (!looks_like_kitti_file(detections)) {
-    for (const MotRow& row : tracks) append_mot_row(text, row);
-    return text;
-  }
-  const auto types = types_of(tracks, read_kitti_file(detections, MotKind::kDetections).rows);
-  for (const MotRow& row : tracks) {
-    const auto type = types.find(row.id);
-    append_kitti_row(text, {row, type == types.end() ? "Misc" : type->second});
-  }
-  return text;
-}
+ private:
+  KittiReader& detections_;
+  std::span<const KittiRow> seen_;  // in the latest frame
+  std::map<std::int64_t, std::map<std::string, int>> votes_;
+};
 
-std::size_t images_in(const std::vector<MotRow>& rows) {
-  std::size_t images = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    images += i == 0 || rows[i].frame != rows[i - 1].frame;
+/// Tracks one sequence after the other, each frame by frame.
+class SequenceTracking {
+ public:
+  SequenceTracking(const TrackOptions& options, const OfflineConfig& config, StageTimes& times,
+                   const Manners& manners)
+      : options_(options), config_(config), times_(times), manners_(manners) {
+    if (options.evaluation_folder.empty()) return;
+    evaluation_.emplace(EvaluationLayout{.root = options.evaluation_folder,
+                                         .benchmark = options.benchmark,
+                                         .split = options.split,
+                                         .tracker = options.tracker_name});
   }
-  return images;
-}
+
+  void track(const MotSequence& sequence) {
+    std::optional<std::int32_t> last_frame;
+    if (sequence.info && sequence.info->length > 0) last_frame = sequence.info->length;
+    MotReader detections = times_.of(StageTimes::kRead, [&] {
+      return MotReader(sequence.detections, MotKind::kDetections, last_frame, stop_if_interrupted);
+    });
+    tell_if_sorted(sequence.detections.string(), detections.in_order(), manners_);
+    const bool is_kitti = looks_like_kitti_file(sequence.detections);
+    std::map<std::int64_t, std::string> types;
+    if (is_kitti) {  // which follow from whole tracks: all is tracked once more
+      types = types_of_tracks(sequence, detections);
+      detections.rewind();
+    }
+    std::vector<AtomicFile> files = files_of(sequence);
+    SequenceRows filmed;
+    std::string text;
+    const BoxTracking result =
+        follow(detections, filmed.detections, [&](std::span<const MotRow> rows) {
+          text.clear();
+          for (const MotRow& row : rows) {
+            if (is_kitti) {
+              const auto type = types.find(row.id);
+              append_kitti_row(text, {row, type == types.end() ? "Misc" : type->second});
+            } else {
+              append_mot_row(text, row);
+            }
+          }
+          for (AtomicFile& file : files) file.write(text);
+          if (is_filmed()) filmed.tracks.insert(filmed.tracks.end(), rows.begin(), rows.end());
+        });
+    times_.of(StageTimes::kWrite, [&] {
+      for (AtomicFile& file : files) file.commit();
+      if (evaluation_) evaluation_->add(sequence, result.last_frame);
+    });
+    times_.count_scans(static_cast<std::size_t>(result.images));
+    if (!manners_.quiet) tell("ghtrack: {}: {}", sequence.name, summary(config_.boxes, result));
+    report_refusals(result.state, manners_);
+    if (is_filmed()) film_sequence(options_, sequence, filmed, manners_);
+  }
+
+  void finish() const {
+    if (evaluation_) evaluation_->finish();
+  }
+
+ private:
+  bool is_filmed() const { return !options_.film.output.empty(); }
+
+  /// Where the tracks of a sequence are written.
+  std::vector<AtomicFile> files_of(const MotSequence& sequence) const {
+    std::vector<AtomicFile> files;
+    if (evaluation_) files.emplace_back(evaluation_->results_of(sequence));
+    if (!evaluation_ || !options_.output.empty()) {
+      const bool several = options_.detections.size() > 1;
+      files.emplace_back(
+          output_file(options_.output, several ? sequence.name + ".txt" : "tracks.txt"));
+    }
+    return files;
+  }
+
+  /// Tracks what is read.
+  /// @param filmed  gets what was read if there is a film
+  template <class OnRows>
+  BoxTracking follow(MotReader& detections, std::vector<MotRow>& filmed, OnRows on_rows) const {
+    const auto read = [&] {
+      stop_if_interrupted();
+      const auto rows = times_.of(StageTimes::kRead, [&] { return detections.next(); });
+      if (is_filmed()) filmed.insert(filmed.end(), rows.begin(), rows.end());
+      return rows;
+    };
+    return times_.of(StageTimes::kTrack, [&] {
+      return track_boxes(config_.boxes, config_.box_output, read,
+                         [&](std::span<const MotRow> rows) {
+                           times_.of(StageTimes::kWrite, [&] { on_rows(rows); });
+                         });
+    });
+  }
+
+  std::map<std::int64_t, std::string> types_of_tracks(const MotSequence& sequence,
+                                                      MotReader& detections) const {
+    KittiReader labels(sequence.detections, MotKind::kDetections, stop_if_interrupted);
+    TypeVotes votes(labels);
+    const BoxSource read = [&] { return detections.next(); };
+    times_.of(StageTimes::kTrack, [&] {
+      track_boxes(config_.boxes, config_.box_output, read,
+                  [&](std::span<const MotRow> rows) { votes.add(rows); });
+    });
+    return votes.types();
+  }
+
+  const TrackOptions& options_;
+  const OfflineConfig& config_;
+  StageTimes& times_;
+  const Manners& manners_;
+  std::optional<EvaluationFolder> evaluation_;
+};
 
 void track_sequences(const TrackOptions& options, const OfflineConfig& config, StageTimes& times,
                      const Manners& manners) {
-  std::optional<EvaluationFolder> evaluation;
-  if (!options.evaluation_folder.empty()) {
-    evaluation.emplace(EvaluationLayout{.root = options.evaluation_folder,
-                                        .benchmark = options.benchmark,
-                                        .split = options.split,
-                                        .tracker = options.tracker_name});
-  }
-  for (const std::string& path : options.detections) {
-    const MotSequence sequence = open_mot_sequence(path);
-    const std::vector<MotRow> detections = times.of(StageTimes::kRead, [&] {
-      std::optional<std::int32_t> last_frame;
-      if (sequence.info && sequence.info->length > 0) last_frame = sequence.info->length;
-      return read_mot_file(sequence.detections, MotKind::kDetections, last_frame);
-    });
-    times.count_scans(images_in(detections));
-    const BoxTracks tracks = times.of(StageTimes::kTrack, [&] {
-      stop_if_interrupted();
-      return track_boxes(config.boxes, config.box_output, detections);
-    });
-    if (!manners.quiet) {
-      tell("ghtrack: {}: {}", sequence.name, summary(config.boxes, detections, tracks));
-    }
-    report_refusals(tracks.state, manners);
-    times.of(StageTimes::kWrite, [&] {
-      const std::string rows = result_rows(tracks.rows, sequence.detections);
-      const std::int32_t last = detections.empty() ? 1 : detections.back().frame;
-      if (evaluation) evaluation->add(sequence, rows, last);
-      if (!evaluation || !options.output.empty()) {
-        const bool several = options.detections.size() > 1;
-        write_file(output_file(options.output, several ? sequence.name + ".txt" : "tracks.txt"),
-                   rows);
-      }
-    });
-    if (!options.film.output.empty()) {
-      film_sequence(options, sequence, detections, tracks, manners);
-    }
-  }
-  if (evaluation) evaluation->finish();
+  SequenceTracking tracking(options, config, times, manners);
+  for (const std::string& path : options.detections) tracking.track(open_mot_sequence(path));
+  tracking.finish();
 }
 
 /// What options say of points, instead of what the configuration says of all sensors or of one.

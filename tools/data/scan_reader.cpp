@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tools/data/fix_columns.hpp"
-#include "tools/data/ordered_rows.hpp"
+#include "tools/record/ordered_rows.hpp"
 #include "tools/data/words.hpp"
 #include "tools/record/errors.hpp"
 

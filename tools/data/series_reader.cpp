@@ -8,7 +8,7 @@
 #include <deque>
 #include <utility>
 
-#include "tools/data/ordered_rows.hpp"
+#include "tools/record/ordered_rows.hpp"
 #include "tools/data/time_column.hpp"
 #include "tools/data/time_order.hpp"
 #include "tools/record/errors.hpp"

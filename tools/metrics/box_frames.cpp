@@ -1,6 +1,7 @@
 #include "tools/metrics/box_frames.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "tools/metrics/best_pairs.hpp"
 
@@ -10,15 +11,6 @@ namespace {
 constexpr double kSameBox = 0.5;  // IoU
 
 Box box_of(const MotRow& row) { return {row.left, row.top, row.width, row.height}; }
-
-/// Takes the rows of the first frame off the front.
-std::span<const MotRow> take_frame(std::span<const MotRow>& rows, std::int32_t frame) {
-  std::size_t count = 0;
-  while (count < rows.size() && rows[count].frame == frame) ++count;
-  const auto taken = rows.first(count);
-  rows = rows.subspan(count);
-  return taken;
-}
 
 void fill(ScoredSet& set, std::span<const MotRow> rows, const std::vector<bool>& scored) {
   set.clear();
@@ -45,28 +37,37 @@ std::vector<std::optional<std::size_t>> same_boxes(std::span<const MotRow> truth
   return result;
 }
 
-ScoreResult score_box_frames(
-    std::span<const MotRow> truth, std::span<const MotRow> tracks, const ScoreOptions& options,
-    const std::function<BoxSelection(std::span<const MotRow>, std::span<const MotRow>)>& select,
-    const OnBoxStep& on_step) {
+ScoreResult score_box_frames(const BoxSource& truth, const BoxSource& tracks,
+                             const ScoreOptions& options, const BoxSelector& select,
+                             const OnBoxStep& on_step) {
   Scorer scorer(options, true);
   InstantCounts instants;
   ScoredSet objects, estimates;
-  while (!truth.empty() || !tracks.empty()) {
-    const std::int32_t frame = truth.empty()    ? tracks.front().frame
-                               : tracks.empty() ? truth.front().frame
-                                                : std::min(truth.front().frame, tracks.front().frame);
-    const auto truth_now = take_frame(truth, frame);
-    const auto tracks_now = take_frame(tracks, frame);
+  const auto score = [&](std::int64_t frame, std::span<const MotRow> truth_now,
+                         std::span<const MotRow> tracks_now) {
     const BoxSelection scored = select(truth_now, tracks_now);
     fill(objects, truth_now, scored.truth);
     fill(estimates, tracks_now, scored.tracks);
-    if (objects.ids.empty() && estimates.ids.empty()) continue;
+    if (objects.ids.empty() && estimates.ids.empty()) return;
     ++(objects.ids.empty()     ? instants.tracks_alone
        : estimates.ids.empty() ? instants.truth_alone
                                : instants.matched);
-    const Scorer::Step step = scorer.add(frame, objects, estimates);
+    const Scorer::Step step = scorer.add(static_cast<double>(frame), objects, estimates);
     if (on_step) on_step(step, objects, estimates);
+  };
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  const auto frame_of = [](std::span<const MotRow> rows) {
+    return rows.empty() ? kNever : rows.front().frame;
+  };
+  std::span<const MotRow> truth_ahead = truth(), tracks_ahead = tracks();
+  while (!truth_ahead.empty() || !tracks_ahead.empty()) {
+    const std::int64_t frame = std::min(frame_of(truth_ahead), frame_of(tracks_ahead));
+    const bool has_truth = frame_of(truth_ahead) == frame;
+    const bool has_tracks = frame_of(tracks_ahead) == frame;
+    const std::span<const MotRow> nothing;
+    score(frame, has_truth ? truth_ahead : nothing, has_tracks ? tracks_ahead : nothing);
+    if (has_truth) truth_ahead = truth();
+    if (has_tracks) tracks_ahead = tracks();
   }
   ScoreResult result = scorer.result();
   result.instants = instants;

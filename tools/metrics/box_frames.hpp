@@ -23,12 +23,13 @@ using OnBoxStep = std::function<void(const Scorer::Step&, const ScoredSet&, cons
 std::vector<std::optional<std::size_t>> same_boxes(std::span<const MotRow> truth,
                                                    std::span<const MotRow> tracks);
 
+/// Says which rows of a frame of truth and tracks are scored.
+using BoxSelector =
+    std::function<BoxSelection(std::span<const MotRow> truth, std::span<const MotRow> tracks)>;
+
 /// Scores boxes frame by frame.
-/// @param truth, tracks  by frame
-/// @param select  what of a frame is scored, from its rows
-ScoreResult score_box_frames(
-    std::span<const MotRow> truth, std::span<const MotRow> tracks, const ScoreOptions& options,
-    const std::function<BoxSelection(std::span<const MotRow>, std::span<const MotRow>)>& select,
-    const OnBoxStep& on_step);
+ScoreResult score_box_frames(const BoxSource& truth, const BoxSource& tracks,
+                             const ScoreOptions& options, const BoxSelector& select,
+                             const OnBoxStep& on_step);
 
 }  // namespace ghtrack

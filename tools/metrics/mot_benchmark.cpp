@@ -63,23 +63,39 @@ void refuse_other_classes(std::span<const MotRow> tracks) {
                   other->category, other->frame));
 }
 
-/// What the rows that are not scored were, for a message.
-std::string reasons(std::span<const MotRow> truth) {
-  std::map<std::int32_t, std::int64_t> by_class;
-  std::int64_t flagged = 0;
-  for (const MotRow& row : truth) {
-    if (row.confidence == 0.0) {
-      ++flagged;
-    } else {
-      ++by_class[row.category];
+/// What the rows of the truth were, so that it can be said why none of them is scored.
+class TruthCounts {
+ public:
+  explicit TruthCounts(MotBenchmark benchmark) : benchmark_(benchmark) {}
+
+  void add(const MotRow& row) {
+    ++rows_;
+    scored_ += is_scored(benchmark_, row) ? 1 : 0;
+    ++(row.confidence == 0.0 ? flagged_ : by_class_[row.category]);
+  }
+
+  /// @throws InputError if there is truth but none of it is scored
+  void check(const std::string& name) const {
+    if (rows_ == 0 || scored_ > 0) return;
+    throw InputError(fmt::format(
+        "{}: error: none of its {} rows is scored under the rules of {} ({}){}", name, rows_,
+        to_string(benchmark_), reasons(),
+        has_classes(benchmark_) ? "; --benchmark none scores every class" : ""));
+  }
+
+ private:
+  std::string reasons() const {
+    std::string text = flagged_ > 0 ? fmt::format("{} with confidence 0", flagged_) : "";
+    for (const auto& [category, count] : by_class_) {
+      text += fmt::format("{}{} of class {}", text.empty() ? "" : ", ", count, category);
     }
+    return text;
   }
-  std::string text = flagged > 0 ? fmt::format("{} with confidence 0", flagged) : "";
-  for (const auto& [category, count] : by_class) {
-    text += fmt::format("{}{} of class {}", text.empty() ? "" : ", ", count, category);
-  }
-  return text;
-}
+
+  MotBenchmark benchmark_;
+  std::int64_t rows_ = 0, scored_ = 0, flagged_ = 0;
+  std::map<std::int32_t, std::int64_t> by_class_;
+};
 
 }  // namespace
 
@@ -94,10 +110,8 @@ std::optional<MotBenchmark> benchmark_named(std::string_view name) {
   return std::nullopt;
 }
 
-MotBenchmark recognise_benchmark(const std::filesystem::path& path, std::span<const MotRow> truth) {
-  const bool classes =
-      std::any_of(truth.begin(), truth.end(), [](const MotRow& row) { return row.category != -1; });
-  if (!classes) return MotBenchmark::kMot15;
+MotBenchmark recognise_benchmark(const std::filesystem::path& path, bool has_categories) {
+  if (!has_categories) return MotBenchmark::kMot15;
   const std::string text = path.string();
   for (const Name& known : kNames) {
     if (!has_classes(known.benchmark)) continue;
@@ -106,28 +120,23 @@ MotBenchmark recognise_benchmark(const std::filesystem::path& path, std::span<co
   return MotBenchmark::kMot17;
 }
 
-ScoreResult score_boxes(
-    MotBenchmark benchmark, const std::string& truth_name, std::span<const MotRow> truth,
-    std::span<const MotRow> tracks, const ScoreOptions& options, const OnBoxStep& on_step) {
-  if (has_classes(benchmark)) refuse_other_classes(tracks);
-  if (!truth.empty() && std::none_of(truth.begin(), truth.end(), [&](const MotRow& row) {
-        return is_scored(benchmark, row);
-      })) {
-    throw InputError(fmt::format(
-        "{}: error: none of its {} rows is scored under the rules of {} ({}){}", truth_name,
-        truth.size(), to_string(benchmark), reasons(truth),
-        has_classes(benchmark) ? "; --benchmark none scores every class" : ""));
-  }
-  ScoreResult result = score_box_frames(
-      truth, tracks, options,
-      [&](std::span<const MotRow> truth_now, std::span<const MotRow> tracks_now) {
-        BoxSelection selection;
-        for (const MotRow& row : truth_now) selection.truth.push_back(is_scored(benchmark, row));
-        selection.tracks = on_distractors(benchmark, truth_now, tracks_now);
-        selection.tracks.flip();
-        return selection;
-      },
-      on_step);
+ScoreResult score_boxes(MotBenchmark benchmark, const std::string& truth_name,
+                        const BoxSource& truth, const BoxSource& tracks,
+                        const ScoreOptions& options, const OnBoxStep& on_step) {
+  TruthCounts counts(benchmark);
+  const auto select = [&](std::span<const MotRow> truth_now, std::span<const MotRow> tracks_now) {
+    if (has_classes(benchmark)) refuse_other_classes(tracks_now);
+    BoxSelection selection;
+    for (const MotRow& row : truth_now) {
+      counts.add(row);
+      selection.truth.push_back(is_scored(benchmark, row));
+    }
+    selection.tracks = on_distractors(benchmark, truth_now, tracks_now);
+    selection.tracks.flip();
+    return selection;
+  };
+  ScoreResult result = score_box_frames(truth, tracks, options, select, on_step);
+  counts.check(truth_name);
   result.benchmark = to_string(benchmark);
   return result;
 }

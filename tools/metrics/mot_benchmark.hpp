@@ -31,16 +31,15 @@ std::optional<MotBenchmark> benchmark_named(std::string_view name);
 
 /// The benchmark that a truth file belongs to: that in its path, MOT17 if its rows have classes
 /// (nine columns), else MOT15.
-MotBenchmark recognise_benchmark(const std::filesystem::path& path, std::span<const MotRow> truth);
+MotBenchmark recognise_benchmark(const std::filesystem::path& path, bool has_categories);
 
 /// Scores the boxes of one sequence frame by frame under the rules of a benchmark (the preprocessing
 /// of TrackEval, Luiten & Hoffhues 2020).
-/// @param truth, tracks  by frame
-/// @param on_step        gets each instant with what was scored; may be empty
+/// @param on_step  gets each instant with what was scored; may be empty
 /// @throws InputError if there is truth but none of it is scored, or tracks have other classes than
 /// pedestrian
-ScoreResult score_boxes(
-    MotBenchmark benchmark, const std::string& truth_name, std::span<const MotRow> truth,
-    std::span<const MotRow> tracks, const ScoreOptions& options, const OnBoxStep& on_step);
+ScoreResult score_boxes(MotBenchmark benchmark, const std::string& truth_name,
+                        const BoxSource& truth, const BoxSource& tracks,
+                        const ScoreOptions& options, const OnBoxStep& on_step);
 
 }  // namespace ghtrack

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "tools/data/ordered_rows.hpp"
+#include "tools/record/ordered_rows.hpp"
 
 namespace ghtrack {
 namespace {

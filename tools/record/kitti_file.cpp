@@ -8,16 +8,15 @@
 #include <limits>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <utility>
+#include <vector>
 
-#include "tools/record/text_file.hpp"
+#include "tools/record/frame_reader.hpp"
 
 namespace ghtrack {
 namespace {
 
 constexpr std::size_t kFields = 17;  // and the score
-constexpr std::string_view kNotLabelled = "DontCare";
 
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
@@ -35,21 +34,37 @@ bool has_fields(const std::vector<std::string_view>& words) {
   return words.size() == kFields || words.size() == kFields + 1;
 }
 
-std::optional<KittiRow> parse_row(const std::vector<std::string_view>& words, std::int64_t line,
-                                  Findings& findings) {
+}  // namespace
+
+bool looks_like_kitti_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  while (words_of(line).empty()) {
+    if (!std::getline(file, line)) return false;
+  }
+  const auto words = words_of(line);
+  return has_fields(words) && parse_whole(words[0]) && !parse_number(words[2]);
+}
+
+std::optional<KittiRow> parse_kitti_row(std::string_view line,
+                                        std::int64_t line_number, Findings& findings) {
+  const auto words = words_of(line);
+  if (words.empty()) return std::nullopt;
   if (!has_fields(words)) {
-    findings.add(line, fmt::format("{} fields; a row of KITTI has {}, or {} with a score",
+    findings.add(line_number, fmt::format("{} fields; a row of KITTI has {}, or {} with a score",
                                    words.size(), kFields, kFields + 1));
     return std::nullopt;
   }
   const auto frame = parse_whole(words[0]);
   const auto id = parse_whole(words[1]);
   if (!frame || *frame < 0 || *frame >= std::numeric_limits<std::int32_t>::max()) {
-    findings.add(line, fmt::format("frame {} is not a whole number from 0", in_quotes(words[0])));
+    findings.add(line_number, fmt::format("frame {} is not a whole number from 0", in_quotes(words[0])));
     return std::nullopt;
   }
   if (!id) {
-    findings.add(line, fmt::format("id {} is not a whole number", in_quotes(words[1])));
+    findings.add(line_number, fmt::format("id {} is not a whole number", in_quotes(words[1])));
     return std::nullopt;
   }
   // truncated, occluded, left, top, right, bottom, score
@@ -60,7 +75,7 @@ std::optional<KittiRow> parse_row(const std::vector<std::string_view>& words, st
     if (field == words.size()) break;
     const auto number = parse_number(words[field]);
     if (!number) {
-      findings.add(line, fmt::format("{} in field {} is not a finite number",
+      findings.add(line_number, fmt::format("{} in field {} is not a finite number",
                                      in_quotes(words[field]), field + 1));
       return std::nullopt;
     }
@@ -68,7 +83,7 @@ std::optional<KittiRow> parse_row(const std::vector<std::string_view>& words, st
   }
   const auto& [truncated, occluded, left, top, right, bottom, score] = numbers;
   if (!(right > left) || !(bottom > top)) {
-    findings.add(line, fmt::format("the box from {}, {} to {}, {} has no area", left, top, right,
+    findings.add(line_number, fmt::format("the box from {}, {} to {}, {} has no area", left, top, right,
                                    bottom));
     return std::nullopt;
   }
@@ -85,52 +100,52 @@ std::optional<KittiRow> parse_row(const std::vector<std::string_view>& words, st
   return row;
 }
 
-}  // namespace
+struct KittiReader::State {
+  State(const std::filesystem::path& path, MotKind that, std::function<void()> pause)
+      : kind(that),
+        frames(
+            path.string(),
+            [](std::string_view line, std::int64_t number,
+               Findings& findings) -> std::optional<FileRow<KittiRow>> {
+              auto row = parse_kitti_row(line, number, findings);
+              if (!row) return std::nullopt;
+              return FileRow<KittiRow>{static_cast<double>(row->box.frame), number,
+                                       std::move(*row)};
+            },
+            [this](const KittiRow& row) { types.insert(row.type); }, std::move(pause)) {}
 
-bool looks_like_kitti_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  std::ifstream file(path, std::ios::binary);
-  std::string line;
-  while (words_of(line).empty()) {
-    if (!std::getline(file, line)) return false;
-  }
-  const auto words = words_of(line);
-  return has_fields(words) && parse_whole(words[0]) && !parse_number(words[2]);
-}
+  std::set<std::string> types;
+  MotKind kind;
+  FrameReader<KittiRow> frames;
+  std::vector<KittiRow> now;  // of the present frame
+};
 
-KittiFile read_kitti_file(const std::filesystem::path& path, MotKind kind) {
-  const std::string text = read_text_file(path);
-  Findings findings(path.string());
-  Lines lines(text);
-  KittiFile labels;
-  auto& [rows, unlabelled] = labels;
-  for (auto line = lines.next(); line && !findings.enough(); line = lines.next()) {
-    const auto words = words_of(*line);
-    if (words.empty()) continue;
-    auto row = parse_row(words, lines.number(), findings);
-    if (!row) continue;
-    if (row->type == kNotLabelled) {
-      unlabelled.push_back(row->box);
-    } else {
-      rows.push_back(std::move(*row));
+KittiReader::KittiReader(const std::filesystem::path& path, MotKind kind,
+                         std::function<void()> pause)
+    : state_(std::make_unique<State>(path, kind, std::move(pause))) {}
+
+KittiReader::~KittiReader() = default;
+KittiReader::KittiReader(KittiReader&&) noexcept = default;
+
+bool KittiReader::in_order() const { return state_->frames.in_order(); }
+const std::set<std::string>& KittiReader::types() const { return state_->types; }
+
+std::span<const KittiRow> KittiReader::next() {
+  std::vector<KittiRow>& now = state_->now;
+  now.clear();
+  std::vector<std::pair<std::int64_t, std::int64_t>> ids;
+  for (const FileRow<KittiRow>& read : state_->frames.next()) {
+    now.push_back(read.row);
+    const bool is_object = read.row.type != kNotLabelled;
+    if (is_object && state_->kind != MotKind::kDetections) {
+      ids.emplace_back(read.row.box.id, read.line);
     }
   }
-  findings.throw_if_any();
-  std::ranges::stable_sort(rows, {}, [](const KittiRow& row) { return row.box.frame; });
-  std::ranges::stable_sort(unlabelled, {}, &MotRow::frame);
-  if (kind == MotKind::kDetections) return labels;
-  std::vector<std::pair<std::int32_t, std::int64_t>> seen;
-  for (const KittiRow& row : rows) seen.emplace_back(row.box.frame, row.box.id);
-  std::sort(seen.begin(), seen.end());
-  const auto twice = std::adjacent_find(seen.begin(), seen.end());
-  if (twice != seen.end()) {
-    findings.add(0, fmt::format("id {} is there twice in frame {}", twice->second,
-                                twice->first - 1));
-  }
-  findings.throw_if_any();
-  return labels;
+  if (!ids.empty()) state_->frames.refuse_twins(std::move(ids), now.front().box.frame - 1);
+  return now;
 }
+
+void KittiReader::rewind() { state_->frames.rewind(); }
 
 void append_kitti_row(std::string& text, const KittiRow& row) {
   const MotRow& box = row.box;

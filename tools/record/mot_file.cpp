@@ -7,12 +7,11 @@
 #include <fstream>
 #include <limits>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
+#include "tools/record/frame_reader.hpp"
 #include "tools/record/kitti_file.hpp"
 #include "tools/record/text_file.hpp"
-#include "tools/record/text_input.hpp"
 
 namespace ghtrack {
 namespace {
@@ -20,11 +19,6 @@ namespace {
 constexpr std::size_t kFewestFields = 6;
 constexpr std::size_t kMostFields = 10;
 constexpr std::size_t kTruthFields = 9;  // of ground truth with categories
-
-struct NumberedRow {
-  MotRow row;
-  std::int64_t line = 0;
-};
 
 /// Turns the fields of a line into a row, or reports what is wrong with it.
 std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, MotKind kind,
@@ -48,14 +42,14 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, Mot
     }
     values[i] = *value;
   }
-  const std::optional<std::int64_t> frame = parse_whole(fields[0]);
+  const std::optional<std::int64_t> frame = as_whole(values[0]);
   const std::int32_t last = last_frame.value_or(std::numeric_limits<std::int32_t>::max());
   if (!frame || *frame < 1 || *frame > last) {
     findings.add(line, fmt::format("frame {} is not a whole number from 1 to {}",
                                    in_quotes(fields[0]), last));
     return std::nullopt;
   }
-  const std::optional<std::int64_t> id = parse_whole(fields[1]);
+  const std::optional<std::int64_t> id = as_whole(values[1]);
   if (!id) {
     findings.add(line, fmt::format("id {} is not a whole number", in_quotes(fields[1])));
     return std::nullopt;
@@ -86,56 +80,115 @@ bool is_header(const std::vector<std::string_view>& fields) {
   return fields.size() >= kFewestFields && says(0, "rame") && (says(2, "eft") || says(2, "x"));
 }
 
-void check_ids(const std::vector<NumberedRow>& rows, MotKind kind, Findings& findings) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (kind != MotKind::kTruth || rows[i].row.confidence != 0.0) order.push_back(i);
+/// Understands the lines of a file, the first of which may be a header.
+class MotParser {
+ public:
+  MotParser(MotKind kind, std::optional<std::int32_t> last_frame)
+      : kind_(kind), last_frame_(last_frame) {}
+
+  std::optional<MotRow> operator()(std::string_view line, std::int64_t number,
+                                   Findings& findings) {
+    if (line.find_first_not_of(" \t") == std::string_view::npos) return std::nullopt;
+    split_fields(line, fields_, owned_);
+    if (first_ == 0) first_ = number;
+    if (number == first_ && is_header(fields_)) return std::nullopt;
+    return parse_row(fields_, kind_, last_frame_, number, findings);
   }
-  const auto key = [&](std::size_t i) { return std::tuple(rows[i].row.frame, rows[i].row.id, i); };
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    const NumberedRow& first = rows[order[i - 1]];
-    const NumberedRow& second = rows[order[i]];
-    if (first.row.frame != second.row.frame || first.row.id != second.row.id) continue;
-    findings.add(second.line,
-                 fmt::format("id {} is there twice in frame {}; the first is in line {}",
-                             second.row.id, second.row.frame, first.line));
-  }
+
+ private:
+  MotKind kind_;
+  std::optional<std::int32_t> last_frame_;
+  std::int64_t first_ = 0;  // line that is not empty
+  std::vector<std::string_view> fields_;
+  std::vector<std::string> owned_;
+};
+
+/// The box of a line of labels, if it is an object's.
+std::optional<MotRow> labelled_box(std::string_view line, std::int64_t number,
+                                   Findings& findings) {
+  const std::optional<KittiRow> label = parse_kitti_row(line, number, findings);
+  if (!label || label->type == kNotLabelled) return std::nullopt;
+  return label->box;
 }
 
 }  // namespace
 
+BoxSource frames_of(std::span<const MotRow> rows) {
+  return [rows]() mutable {
+    std::size_t count = 0;
+    while (count < rows.size() && rows[count].frame == rows.front().frame) ++count;
+    const auto frame = rows.first(count);
+    rows = rows.subspan(count);
+    return frame;
+  };
+}
+
+struct MotReader::State {
+  State(const std::filesystem::path& path, MotKind that, std::optional<std::int32_t> last_frame,
+        std::function<void()> pause)
+      : kind(that),
+        is_kitti(looks_like_kitti_file(path)),
+        frames(
+            path.string(),
+            [this, parse = MotParser(kind, last_frame)](
+                std::string_view line, std::int64_t number,
+                Findings& findings) mutable -> std::optional<FileRow<MotRow>> {
+              const auto row = is_kitti ? labelled_box(line, number, findings)
+                                        : parse(line, number, findings);
+              if (!row) return std::nullopt;
+              return FileRow<MotRow>{static_cast<double>(row->frame), number, *row};
+            },
+            [this](const MotRow& row) {
+              ++rows;
+              has_categories = has_categories || row.category != -1;
+            },
+            std::move(pause)) {}
+
+  std::int64_t rows = 0;
+  bool has_categories = false;
+  MotKind kind;
+  bool is_kitti;
+  FrameReader<MotRow> frames;
+  std::vector<MotRow> now;  // of the present frame
+};
+
+MotReader::MotReader(const std::filesystem::path& path, MotKind kind,
+                     std::optional<std::int32_t> last_frame, std::function<void()> pause)
+    : state_(std::make_unique<State>(path, kind, last_frame, std::move(pause))) {}
+
+MotReader::~MotReader() = default;
+MotReader::MotReader(MotReader&&) noexcept = default;
+
+std::int64_t MotReader::rows() const { return state_->rows; }
+bool MotReader::in_order() const { return state_->frames.in_order(); }
+bool MotReader::has_categories() const { return state_->has_categories; }
+
+std::span<const MotRow> MotReader::next() {
+  std::vector<MotRow>& now = state_->now;
+  now.clear();
+  std::vector<std::pair<std::int64_t, std::int64_t>> ids;
+  for (const FileRow<MotRow>& read : state_->frames.next()) {
+    now.push_back(read.row);
+    const bool is_ignored = state_->kind == MotKind::kTruth && read.row.confidence == 0.0;
+    if (!is_ignored && state_->kind != MotKind::kDetections) ids.emplace_back(read.row.id, read.line);
+  }
+  if (!ids.empty()) {
+    state_->frames.refuse_twins(std::move(ids), now.front().frame - (state_->is_kitti ? 1 : 0));
+  }
+  return now;
+}
+
+void MotReader::rewind() { state_->frames.rewind(); }
+
 std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kind,
                                   std::optional<std::int32_t> last_frame) {
-  if (looks_like_kitti_file(path)) {
-    std::vector<MotRow> boxes;
-    for (const KittiRow& row : read_kitti_file(path, kind).rows) boxes.push_back(row.box);
-    return boxes;
+  MotReader reader(path, kind, last_frame);
+  std::vector<MotRow> rows;
+  rows.reserve(static_cast<std::size_t>(reader.rows()));
+  for (auto frame = reader.next(); !frame.empty(); frame = reader.next()) {
+    rows.insert(rows.end(), frame.begin(), frame.end());
   }
-  TextInput lines(path.string());
-  Findings findings(path.string());
-  std::vector<NumberedRow> rows;
-  std::vector<std::string_view> fields;
-  std::vector<std::string> owned;
-  bool is_first = true;
-  for (auto line = lines.next(); line && !findings.enough(); line = lines.next()) {
-    if (line->find_first_not_of(" \t") == std::string_view::npos) continue;
-    split_fields(*line, fields, owned);
-    if (std::exchange(is_first, false) && is_header(fields)) continue;
-    const auto row = parse_row(fields, kind, last_frame, lines.line_number(), findings);
-    if (row) rows.push_back({*row, lines.line_number()});
-  }
-  findings.throw_if_any();
-  std::stable_sort(rows.begin(), rows.end(), [](const NumberedRow& a, const NumberedRow& b) {
-    return a.row.frame < b.row.frame;
-  });
-  if (kind != MotKind::kDetections) check_ids(rows, kind, findings);
-  findings.throw_if_any();
-
-  std::vector<MotRow> result;
-  result.reserve(rows.size());
-  for (const NumberedRow& numbered : rows) result.push_back(numbered.row);
-  return result;
+  return rows;
 }
 
 bool looks_like_mot_file(const std::filesystem::path& path) {

@@ -2,7 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,12 +31,50 @@ enum class MotKind {
   kResult,      // no id twice in a frame
 };
 
-/// Reads a MOTChallenge text file: rows `frame,id,left,top,width,height[,conf[,x,y,z]]` or, for
-/// ground truth, `…,flag,category,visibility`, in any order of frames, separated by commas with or
-/// without blanks, or by tabs. Empty lines are skipped. Rows come back by frame, in the file's
-/// order. A file without rows is an empty list. Labels of KITTI are read as well.
-/// @param last_frame  the length of the sequence if it is known: rows beyond it are errors
-/// @throws InputError naming file, line, what was found and what is allowed
+/// Boxes frame by frame: the rows of the next frame that has any, valid until the next call; empty
+/// after the last.
+using BoxSource = std::function<std::span<const MotRow>()>;
+
+/// Boxes in memory.
+/// @param rows  by frame
+BoxSource frames_of(std::span<const MotRow> rows);
+
+/// Reads a MOTChallenge text file frame by frame: rows `frame,id,left,top,width,height[,conf[,x,y,z]]`
+/// or, for ground truth, `…,flag,category,visibility`, separated by commas with or without blanks, or
+/// by tabs. Empty lines are skipped. The rows of a frame have the file's order. Labels of KITTI are
+/// read as well.
+///
+/// A file in the order of frames is read in constant memory, whatever its size; the rows of others,
+/// and of pipes, are held in memory.
+class MotReader {
+ public:
+  /// Goes through the file once.
+  /// @param last_frame  the length of the sequence if it is known: rows beyond it are errors
+  /// @param pause       called between blocks; may throw to stop reading
+  /// @throws InputError naming file, line, what was found and what is allowed
+  MotReader(const std::filesystem::path& path, MotKind kind,
+            std::optional<std::int32_t> last_frame = std::nullopt,
+            std::function<void()> pause = {});
+  ~MotReader();
+  MotReader(MotReader&&) noexcept;
+
+  std::int64_t rows() const;
+  bool in_order() const;        // of frames, in the file
+  bool has_categories() const;  // some rows have one
+
+  /// The rows of the next frame, valid until the next call; empty after the last.
+  /// @throws InputError if an identity is there twice
+  std::span<const MotRow> next();
+
+  /// Goes back to the first frame.
+  void rewind();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Reads a whole file with MotReader: rows by frame, in the file's order.
 std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kind,
                                   std::optional<std::int32_t> last_frame = std::nullopt);
 

@@ -19,14 +19,15 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
 }
 
-void write_into_new_folder(const fs::path& path, const std::string& text) {
+/// The same path; its folder is made.
+fs::path in_new_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   if (error) {
     throw WriteError(path.parent_path().string() +
                      ": error: the folder cannot be made: " + error.message());
   }
-  write_file(path, text);
+  return path;
 }
 
 }  // namespace
@@ -58,25 +59,26 @@ EvaluationFolder::EvaluationFolder(EvaluationLayout layout)
 
 fs::path EvaluationFolder::truth_folder() const { return layout_.root / "gt"; }
 
-void EvaluationFolder::add(const MotSequence& sequence, const std::string& results,
-                           std::int32_t last_frame) {
-  write_into_new_folder(
-      layout_.root / "trackers" / set_ / layout_.tracker / "data" / (sequence.name + ".txt"),
-      results);
+fs::path EvaluationFolder::results_of(const MotSequence& sequence) const {
+  return in_new_folder(layout_.root / "trackers" / set_ / layout_.tracker / "data" /
+                       (sequence.name + ".txt"));
+}
+
+void EvaluationFolder::add(const MotSequence& sequence, std::int32_t last_frame) {
   if (!sequence.truth) return;
   const fs::path folder = truth_folder() / set_ / sequence.name;
-  write_into_new_folder(folder / "gt" / "gt.txt", read_text_file(*sequence.truth));
-  write_into_new_folder(folder / "seqinfo.ini",
-                        sequence.info_file ? read_text_file(*sequence.info_file)
-                                           : fmt::format("[Sequence]\nname={}\nseqLength={}\n",
-                                                         sequence.name, last_frame));
+  write_file(in_new_folder(folder / "gt" / "gt.txt"), read_text_file(*sequence.truth));
+  write_file(folder / "seqinfo.ini", sequence.info_file
+                                         ? read_text_file(*sequence.info_file)
+                                         : fmt::format("[Sequence]\nname={}\nseqLength={}\n",
+                                                       sequence.name, last_frame));
   scored_.push_back(sequence.name);
 }
 
 void EvaluationFolder::finish() const {
   std::string seqmap = "name\n";
   for (const std::string& name : scored_) seqmap += name + "\n";
-  write_into_new_folder(truth_folder() / "seqmaps" / (set_ + ".txt"), seqmap);
+  write_file(in_new_folder(truth_folder() / "seqmaps" / (set_ + ".txt")), seqmap);
 }
 
 }  // namespace ghtrack

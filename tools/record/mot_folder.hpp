@@ -41,10 +41,14 @@ class EvaluationFolder {
  public:
   explicit EvaluationFolder(EvaluationLayout layout);
 
-  /// @param results     MOTChallenge rows
-  /// @param last_frame  of detections and truth, for a sequence without seqinfo.ini
+  /// The file that the results of a sequence are to be written into; its folder is made.
   /// @throws WriteError
-  void add(const MotSequence& sequence, const std::string& results, std::int32_t last_frame);
+  std::filesystem::path results_of(const MotSequence& sequence) const;
+
+  /// Copies the truth of a sequence whose results are written.
+  /// @param last_frame  of the detections, for a sequence without seqinfo.ini
+  /// @throws WriteError
+  void add(const MotSequence& sequence, std::int32_t last_frame);
 
   /// Writes the seqmap. The last call.
   /// @throws WriteError

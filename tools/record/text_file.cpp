@@ -123,10 +123,12 @@ bool shows(char32_t code) {
   return !schema::is_control(code) && !turns;
 }
 
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
 std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 /// Takes a quoted field off the front of `line`, which starts with the quote. A field whose quote
@@ -221,10 +223,13 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields,
   fields.clear();
   owned.clear();
   // Views into `owned` stay valid because it never grows beyond this.
-  owned.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), '"')));
+  const auto quotes = static_cast<std::size_t>(std::count(line.begin(), line.end(), '"'));
+  owned.reserve(quotes);
   const char separator = line.find(',') == std::string_view::npos ? '\t' : ',';
   while (true) {
-    const std::size_t start = line.find_first_not_of(separator == ',' ? " \t" : " ");
+    const std::size_t start =
+        quotes == 0 ? std::string_view::npos
+                    : line.find_first_not_of(separator == ',' ? " \t" : " ");
     std::string_view field;
     if (start != std::string_view::npos && line[start] == '"') {
       line.remove_prefix(start);
@@ -267,10 +272,12 @@ std::optional<double> parse_number(std::string_view text, char point) {
 
 std::optional<std::int64_t> parse_whole(std::string_view text) {
   const std::optional<double> value = parse_number(text);
-  if (!value || std::trunc(*value) != *value || std::abs(*value) > kLargestWhole) {
-    return std::nullopt;
-  }
-  return static_cast<std::int64_t>(*value);
+  return value ? as_whole(*value) : std::nullopt;
+}
+
+std::optional<std::int64_t> as_whole(double value) {
+  if (std::trunc(value) != value || std::abs(value) > kLargestWhole) return std::nullopt;
+  return static_cast<std::int64_t>(value);
 }
 
 std::string in_quotes(std::string_view text) {

@@ -77,6 +77,7 @@ std::optional<double> parse_number(std::string_view text, char point = '.');
 
 /// The whole number, in the range of an identity, that makes up the text; 3 and 3.0 are the same.
 std::optional<std::int64_t> parse_whole(std::string_view text);
+std::optional<std::int64_t> as_whole(double value);
 
 /// The text in quotes, safe for a terminal and short enough for a message.
 std::string in_quotes(std::string_view text);

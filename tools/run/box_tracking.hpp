@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,19 +49,36 @@ struct BoxOutputConfig {
   }
 };
 
-/// The tracks of a sequence of boxes.
-struct BoxTracks {
-  std::vector<MotRow> rows;  // by frame, then id; ids count from 1 in the order of appearance
-  BoxTrackerState state;     // at the end, with what was learned and the counts of what was refused
+/// What tracking a sequence came to.
+struct BoxTracking {
+  std::int64_t boxes = 0;       // that were read
+  std::int64_t images = 0;      // that had some
+  std::int32_t last_frame = 1;  // of them
+  std::int64_t tracks = 0;      // that were confirmed
+  BoxTrackerState state;        // at the end, with what was learned and the counts of what was refused
 };
 
-/// Tracks the boxes of a sequence.
+/// Tracks the boxes of a sequence. Rows are handed on as soon as nothing that comes can change them:
+/// at once by default; with `longest_gap` so many images later; with `from_first_sight` when the
+/// tracks that began before are confirmed or given up; with `fill` when those are over. Until then
+/// they are held in memory.
+/// @param on_rows  gets the rows of one frame after the other, each by id; ids count from 1 in the
+/// order of appearance
+BoxTracking track_boxes(const BoxTrackerConfig& config, const BoxOutputConfig& output,
+                        const BoxSource& detections,
+                        const std::function<void(std::span<const MotRow>)>& on_rows);
+
+/// The tracks of a sequence in memory.
+struct BoxTracks : BoxTracking {
+  std::vector<MotRow> rows;  // by frame, then id
+};
+
+/// Tracks the boxes of a sequence in memory.
 /// @param detections  by frame
 BoxTracks track_boxes(const BoxTrackerConfig& config, const BoxOutputConfig& output,
                       std::span<const MotRow> detections);
 
 /// One line for people: what was read, what the filters assumed in the end, what came out.
-std::string summary(const BoxTrackerConfig& config, std::span<const MotRow> detections,
-                    const BoxTracks& tracks);
+std::string summary(const BoxTrackerConfig& config, const BoxTracking& tracking);
 
 }  // namespace ghtrack

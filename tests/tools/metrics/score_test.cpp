@@ -64,11 +64,16 @@ std::vector<MotRow> street(bool as_tracks) {
   return rows;
 }
 
+ScoreResult score_streets(MotBenchmark benchmark, const std::string& name,
+                          const std::vector<MotRow>& truth, const std::vector<MotRow>& tracks) {
+  return score_boxes(benchmark, name, frames_of(truth), frames_of(tracks), {}, {});
+}
+
 // Derived: IoU (40 − 5) / (40 + 5) for all pairs. One identity is split in halves: IDTP is 100 of
 // 120, one switch; association is 1 for two thirds of the matches and 1/2 for one third, up to the
 // threshold 0.75, and nothing matches above 7/9.
 TEST(Score, ScoresBoxesOfAGeneratedStreet) {
-  const ScoreResult result = score_boxes(MotBenchmark::kMot15, "gt", street(false), street(true), {}, {});
+  const ScoreResult result = score_streets(MotBenchmark::kMot15, "gt", street(false), street(true));
   const MotResult& mot = result.mot;
   EXPECT_EQ(mot.clear.matches, 120);
   EXPECT_EQ(mot.clear.id_switches, 1);
@@ -154,14 +159,14 @@ TEST(MotBenchmark, LeavesOutWhatMatchesADistractor) {
   for (MotRow& row : truth) row.category = row.id == 2 ? 12 : row.id == 3 ? 3 : 1;
   std::vector<MotRow> tracks = street(true);
   const auto scored = [&](MotBenchmark benchmark) {
-    return score_boxes(benchmark, "gt", truth, tracks, {}, {}).mot.clear;
+    return score_streets(benchmark, "gt", truth, tracks).mot.clear;
   };
   EXPECT_EQ(scored(MotBenchmark::kMot17).matches, 40);
   EXPECT_EQ(scored(MotBenchmark::kMot17).false_tracks, 40);  // on the car
   EXPECT_EQ(scored(MotBenchmark::kNone).matches, 120);
-  EXPECT_EQ(recognise_benchmark("gt.txt", truth), MotBenchmark::kMot17);
-  EXPECT_EQ(recognise_benchmark("MOT20-01/gt/gt.txt", truth), MotBenchmark::kMot20);
-  EXPECT_EQ(recognise_benchmark("MOT20-01/gt/gt.txt", street(false)), MotBenchmark::kMot15);
+  EXPECT_EQ(recognise_benchmark("gt.txt", true), MotBenchmark::kMot17);
+  EXPECT_EQ(recognise_benchmark("MOT20-01/gt/gt.txt", true), MotBenchmark::kMot20);
+  EXPECT_EQ(recognise_benchmark("MOT20-01/gt/gt.txt", false), MotBenchmark::kMot15);
 }
 
 // Property: truth of which nothing is scored is refused, with the reason.
@@ -169,7 +174,7 @@ TEST(MotBenchmark, RefusesTruthThatIsIgnoredAltogether) {
   std::vector<MotRow> truth = street(false);
   for (MotRow& row : truth) row.category = 3;
   try {
-    score_boxes(MotBenchmark::kMot17, "gt.txt", truth, street(true), {}, {});
+    score_streets(MotBenchmark::kMot17, "gt.txt", truth, street(true));
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
@@ -181,7 +186,7 @@ TEST(MotBenchmark, RefusesTruthThatIsIgnoredAltogether) {
 // Property: sequences scored together are the sum of their counts, and a sequence with itself keeps
 // every mean.
 TEST(Score, CombinesSequences) {
-  const auto one = score_boxes(MotBenchmark::kNone, "gt", street(false), street(true), {}, {});
+  const auto one = score_streets(MotBenchmark::kNone, "gt", street(false), street(true));
   const ScoreResult both = combine(std::vector<ScoreResult>{one, one});
   EXPECT_EQ(both.mot.clear.matches, 2 * one.mot.clear.matches);
   EXPECT_EQ(both.steps, 2 * one.steps);

@@ -56,6 +56,48 @@ TEST(MotFile, ReadsRowsInAnyOrderOfFrames) {
   EXPECT_EQ(rows[2].confidence, -0.25);
 }
 
+/// Frames in which boxes come and go, in the order of frames or of identities.
+std::string rows_by(bool frames) {
+  std::string text;
+  const auto add = [&](int frame, int id) {
+    if ((frame + id) % 4 == 0) return;
+    append_mot_row(text, {.frame = frame, .id = id, .width = 3.0 + id, .height = 1.0 * frame});
+  };
+  for (int i = 1; i <= 50; ++i) {
+    for (int k = 1; k <= 50; ++k) frames ? add(i, k) : add(k, i);
+  }
+  return text;
+}
+
+// Property: frame by frame come the same rows whatever the order of the file, again after rewind().
+TEST(MotFile, ComesFrameByFrameInAnyOrder) {
+  const ScratchFolder folder;
+  MotReader ordered(folder.write("ordered.txt", rows_by(true)), MotKind::kResult);
+  MotReader other(folder.write("other.txt", rows_by(false)), MotKind::kResult);
+  EXPECT_TRUE(ordered.in_order());
+  EXPECT_FALSE(other.in_order());
+  for (int pass = 0; pass < 2; ++pass) {
+    std::int64_t rows = 0;
+    for (int frame = 1; frame <= 50; ++frame) {
+      const auto now = ordered.next();
+      const auto same = other.next();
+      ASSERT_EQ(now.size(), same.size());
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        EXPECT_EQ(now[i].frame, frame);
+        EXPECT_EQ(same[i].frame, frame);
+        EXPECT_EQ(now[i].id, same[i].id);
+        EXPECT_EQ(now[i].height, same[i].height);
+      }
+      rows += static_cast<std::int64_t>(now.size());
+    }
+    EXPECT_TRUE(ordered.next().empty());
+    EXPECT_TRUE(other.next().empty());
+    EXPECT_EQ(rows, ordered.rows());
+    ordered.rewind();
+    other.rewind();
+  }
+}
+
 // Property: the dialects of the format say the same.
 TEST(MotFile, ReadsEveryDialectAlike) {
   for (const std::string text :

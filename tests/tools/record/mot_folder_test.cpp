@@ -61,9 +61,13 @@ TEST(EvaluationFolder, HasTheLayoutOfTrackEval) {
   without_info.name = "square";
   without_info.info_file.reset();
   EvaluationFolder evaluation({.root = folder.path() / "eval"});
-  evaluation.add(sequence, "1,1,10,20,30,40,1,-1,-1,-1\n", 1);
-  evaluation.add(without_truth, "", 1);
-  evaluation.add(without_info, "", 7);
+  const auto add = [&](const MotSequence& added, const char* results, std::int32_t last_frame) {
+    write_file(evaluation.results_of(added), results);
+    evaluation.add(added, last_frame);
+  };
+  add(sequence, "1,1,10,20,30,40,1,-1,-1,-1\n", 1);
+  add(without_truth, "", 1);
+  add(without_info, "", 7);
   evaluation.finish();
   EXPECT_EQ(folder.read("eval/gt/seqmaps/MOT15-train.txt"), "name\nstreet\nsquare\n");
   EXPECT_EQ(folder.read("eval/gt/MOT15-train/street/gt/gt.txt"), "1,1,10,20,30,40,1,-1,-1,-1\n");

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -74,6 +75,39 @@ TEST(BoxTracking, WritesNothingThatWasKnownLaterOnly) {
     ASSERT_LE(part.size(), all.size());
     for (std::size_t i = 0; i < part.size(); ++i) EXPECT_EQ(fields(part[i]), fields(all[i]));
     EXPECT_TRUE(part.size() == all.size() || all[part.size()].frame > last);
+  }
+}
+
+/// The rows of tracks, and how many images were held in memory at most before one was handed on.
+struct HandedOn {
+  std::vector<MotRow> rows;
+  std::int32_t longest_wait = 0;
+};
+HandedOn hand_on(const BoxOutputConfig& output, const std::vector<MotRow>& detections) {
+  HandedOn result;
+  std::int32_t read = 0;
+  const auto source = [&, frames = ghtrack::frames_of(detections)] {
+    const auto rows = frames();
+    if (!rows.empty()) read = rows.front().frame;
+    return rows;
+  };
+  track_boxes({}, output, source, [&](std::span<const MotRow> rows) {
+    EXPECT_TRUE(result.rows.empty() || result.rows.back().frame < rows.front().frame);
+    result.longest_wait = std::max(result.longest_wait, read - rows.front().frame);
+    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+  });
+  return result;
+}
+
+// Property: by default the rows of an image are handed on with it; gaps that may be closed keep them
+// back for so long, and filling as long as a track goes on, however many images there are.
+TEST(BoxTracking, HoldsNoMoreThanMayChange) {
+  for (const int frames : {300, 900}) {
+    const std::vector<MotRow> detections = crowd(frames);
+    EXPECT_EQ(hand_on({}, detections).longest_wait, 0);
+    EXPECT_LE(hand_on({.longest_gap = 7}, detections).longest_wait, 8);
+    EXPECT_LE(hand_on({.from_first_sight = true}, detections).longest_wait, 10);
+    EXPECT_LE(hand_on({.fill = true}, detections).longest_wait, 250);  // a walk takes 150
   }
 }
 
@@ -205,11 +239,11 @@ TEST(BoxTracking, NumbersTheTracksThatAreWrittenFromOne) {
 // Derived: what is said counts what was given.
 TEST(BoxTracking, SaysWhatWasReadLearnedAndConfirmed) {
   const std::vector<MotRow> detections = walk(40, {21});
-  const std::string line = summary({}, detections, track_boxes({}, {}, detections));
+  const std::string line = summary({}, track_boxes({}, {}, detections));
   EXPECT_NE(line.find("39 boxes in 39 images, confidence 1.00 ± 0.00"), std::string::npos) << line;
   EXPECT_NE(line.find("1 tracks confirmed of 1 begun"), std::string::npos) << line;
   const BoxTrackerConfig strict{.acceleration = 0.01, .start_confidence = 2.0};
-  const std::string none = summary(strict, detections, track_boxes(strict, {}, detections));
+  const std::string none = summary(strict, track_boxes(strict, {}, detections));
   EXPECT_NE(none.find("0.0100 (given)"), std::string::npos) << none;
   EXPECT_NE(none.find("no track was confirmed of 0 begun"), std::string::npos) << none;
 }

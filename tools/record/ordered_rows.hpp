@@ -27,6 +27,7 @@ class OrderedRows {
     double latest = 0.0;
     for (bool first = true; read_(row); first = false) {
       visit(row);
+      ++count_;
       in_order_ = in_order_ && (first || row.time >= latest);
       latest = row.time;
       if (in_memory_) rows_.push_back(row);
@@ -38,6 +39,7 @@ class OrderedRows {
     if (!in_order_ && !in_memory_) {
       in_memory_ = true;
       rewind_();
+      rows_.reserve(count_);
       for (Row row; read_(row);) rows_.push_back(row);
     }
     if (!in_order_) {
@@ -68,6 +70,7 @@ class OrderedRows {
   Rewind rewind_;
   bool in_order_ = true;
   bool in_memory_ = false;
+  std::size_t count_ = 0;  // of all rows
   std::vector<Row> rows_;
   std::size_t at_ = 0;
 };
