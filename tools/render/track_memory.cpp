@@ -17,6 +17,11 @@ constexpr double kEventSeconds = 1.2;
 constexpr double kLabelSeconds = 0.25;   // a speed can be read that long
 constexpr double kLabelInertia = 0.116;  // time constant of the place of a label
 
+/// What files call it.
+std::u32string number_of(const TrackEstimate& track) {
+  return U"#" + drawable(std::to_string(track.id));
+}
+
 }  // namespace
 
 Vec2 predicted_position(const TrackEstimate& track, double ahead) {
@@ -63,14 +68,16 @@ std::u32string TrackMemory::name_of(const TrackEstimate& track) const {
       if (object.id == *trace->second.object) return drawable(object.name, 24);
     }
   }
-  return U"#" + drawable(std::to_string(track.id));
+  return number_of(track);
 }
 
+/// The first track of an object goes by its name. A later one shows its number, too: the name alone
+/// would hide that the identity was lost. Numbers are those of the files, where tracks that are counted
+/// have one from their birth on, so that most of them are skipped in pictures.
 std::u32string TrackMemory::label_text(const Trace& trace) const {
   const TrackEstimate& track = trace.last;
-  const std::u32string number = U"#" + drawable(std::to_string(track.id));
-  std::u32string text = number;
-  if (trace.object) text = name_of(track) + U" " + number;
+  std::u32string text = name_of(track);
+  if (trace.succeeds) text += U" " + number_of(track);
   if (manner_.color) return text;  // among several panels space is short
   const std::u32string label = drawable(track.label, 16);
   if (!label.empty() && !trace.object) text += U" " + label;
@@ -113,13 +120,13 @@ void TrackMemory::note_objects(const PanelFrame& panel) {
     if (trace == traces_.end()) continue;
     if (trace->second.object != pairing.object) trace->second.label.clear();
     trace->second.object = pairing.object;
-    const auto [entry, is_new] = track_of_object_.try_emplace(pairing.object, pairing.track);
-    if (entry->second == pairing.track) continue;
-    entry->second = pairing.track;
-    if (!is_new) {
-      events_.push_back({Happening::kSwitch, snapshot_time_, trace->second.last.position,
-                         color_of(trace->second.last)});
-    }
+    int& track = track_of_object_.try_emplace(pairing.object, pairing.track).first->second;
+    if (track == pairing.track) continue;
+    track = pairing.track;
+    trace->second.succeeds = true;
+    trace->second.label.clear();
+    events_.push_back({Happening::kSwitch, snapshot_time_, trace->second.last.position,
+                       color_of(trace->second.last)});
   }
   for (auto& [id, trace] : traces_) {
     if (trace.color || trace.last.status == TrackStatus::kTentative) continue;

@@ -27,6 +27,7 @@ class TrackMemory {
     double label_time = 0.0;           // [s] when the label was written
     std::optional<std::size_t> color;  // index in the palette, from the confirmation on
     std::optional<ObjectId> object;    // that it follows, or did last
+    bool succeeds = false;             // it took an object over from another track
     bool seen = false;                 // in the latest snapshot
   };
   enum class Happening { kLost, kSwitch };

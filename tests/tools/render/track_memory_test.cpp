@@ -57,5 +57,27 @@ TEST(TrackMemory, TellsTracksApartByColour) {
   }
 }
 
+// Property: an object's name is enough as long as one track follows it, whatever number that was born
+// with; a track that takes over shows that it does, and one that follows nobody has its number alone.
+TEST(TrackMemory, NumbersTracksWhereNamesDoNotTellThemApart) {
+  const std::vector<ObjectInfo> named = objects();
+  TrackMemory memory({}, named);
+  const auto label_of = [&](double time, int track, std::optional<ObjectId> follows) {
+    VideoFrame frame;
+    frame.time = time;
+    PanelFrame panel;
+    panel.tracks.time = time;
+    TrackEstimate& estimate = panel.tracks.tracks.emplace_back();
+    estimate.id = track;
+    estimate.status = TrackStatus::kConfirmed;
+    if (follows) panel.pairings.push_back({.object = *follows, .track = track, .distance = 0.0});
+    memory.remember(frame, panel);
+    return memory.traces().at(track).label;
+  };
+  EXPECT_EQ(label_of(0.0, 24, named[1].id), U"object 1 0.0 m/s");
+  EXPECT_EQ(label_of(1.0, 89, named[1].id), U"object 1 #89 0.0 m/s");
+  EXPECT_EQ(label_of(2.0, 90, std::nullopt), U"#90 0.0 m/s");
+}
+
 }  // namespace
 }  // namespace ghtrack::render
