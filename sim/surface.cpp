@@ -50,6 +50,13 @@ double Ground::height_at(double x) const {
   return before.y() + fraction * (right->y() - before.y());
 }
 
+double Ground::lowest() const {
+  const std::vector<Vec2> points = outline();
+  double lowest = points.empty() ? height : points.front().y();
+  for (const Vec2& point : points) lowest = std::min(lowest, point.y());
+  return lowest;
+}
+
 std::vector<Vec2> Ground::outline() const {
   if (!smooth || profile.empty()) return profile;
   constexpr int kParts = 24;  // of each piece of the spline

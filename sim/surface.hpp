@@ -80,6 +80,9 @@ struct Ground {
   /// y of the ground below or above a point [m].
   double height_at(double x) const;
 
+  /// y of its lowest point [m].
+  double lowest() const;
+
   /// Points of a line that looks like its profile, from left to right [m]; none if it is level.
   std::vector<Vec2> outline() const;
 

@@ -85,7 +85,7 @@ void step_by_counts(Look& look, TrackerState& state) {
   keep_if(tracks, [&](std::size_t i) {
     const int detection = pairing.detection_of[i];
     if (detection == kMissed) {
-      miss(tracks[i], look.sensor, look.scan.time);
+      miss(tracks[i], config, look.sensor, look.scan.time);
     } else {
       hit(tracks[i], members[detection], look.scan);
     }

@@ -45,7 +45,7 @@ Competition compete(Look& look, double nobodys, const std::vector<Track>& tracks
     const Track& track = tracks[i];
     if (track.shared > 0) result.sharing.push_back(i);
     const double r = std::max(least, *track.existence);  // that it claims
-    const double due = is_due(track, look.sensor, look.scan.time) ? p : 0.0;
+    const double due = is_due(track, look.config(), look.sensor, look.scan.time) ? p : 0.0;
     const double missed = 1.0 - r * due;
     // odds: r p N(ν; 0, S) / (nobody's · (1 − r p))
     const double base = portable::log(2.0 * std::numbers::pi * nobodys * missed / (r * p));
@@ -96,7 +96,7 @@ Unused update_with_nearest(const Look& look, const Competition& competition, Tra
     const double p = detection[i];
     if (assignment[i] == kMissed) {
       r = after_miss(r, p);
-      miss(track, look.sensor, look.scan.time);
+      miss(track, look.config(), look.sensor, look.scan.time);
       continue;
     }
     const double claimed = std::max(kLeastClaim, r);
@@ -172,7 +172,7 @@ Unused update_with_all(const Look& look, const Competition& competition,
     }
     if (!probable.empty()) pull(track, probable);
     if (probable.empty() || 2.0 * detected < r) {
-      miss(track, look.sensor, look.scan.time);
+      miss(track, look.config(), look.sensor, look.scan.time);
     } else {
       const auto likeliest = std::max_element(
           probable.begin(), probable.end(),

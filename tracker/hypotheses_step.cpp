@@ -134,7 +134,7 @@ class MultiScan {
     const double r = *track.existence;
     const double p = evidence_.detection_probability;
     Prospect result;
-    result.detection = is_due(track, look_.sensor, look_.scan.time) ? p : 0.0;
+    result.detection = is_due(track, look_.config(), look_.sensor, look_.scan.time) ? p : 0.0;
     const double missed = 1.0 - r * result.detection;
     result.log_missed = portable::log(missed);
     const double base = portable::log(2.0 * std::numbers::pi * nobodys_ * missed / (r * p));
@@ -282,7 +282,7 @@ class MultiScan {
     if (member == kMissed) {
       next.recent.front() = 0;
       next.track.existence = after_miss(*branch.track.existence, prospect.detection);
-      miss(next.track, look_.sensor, look_.scan.time);
+      miss(next.track, look_.config(), look_.sensor, look_.scan.time);
     } else {
       next.recent.front() = member + 1;
       next.track.existence = 1.0;

@@ -17,6 +17,13 @@ bool is_look(const Track& track, const SensorTraits& sensor, double time) {
          time - track.seen_at >= (track.unseen + 1.5) * sensor.period;
 }
 
+/// Whether it is expected below the floor, and no error of its place explains that.
+bool is_below(const Track& track, const TrackerConfig& config) {
+  if (!config.floor) return false;
+  const auto& [position, covariance] = track.prediction;
+  return position.y() + config.gate * std::sqrt(covariance(1, 1)) < *config.floor;
+}
+
 /// Whether the prediction is a mixture, which no single covariance describes.
 bool is_mixed(const Track& track) { return std::holds_alternative<ImmFilter>(track.filter); }
 
@@ -131,12 +138,14 @@ void pull(Track& track, std::span<const Weighted> probable) {
   update(track.filter, expected + shift, covariance - track.prediction.covariance);
 }
 
-bool is_due(const Track& track, const SensorTraits& sensor, double time) {
-  return is_look(track, sensor, time) && contains(sensor.field_of_view, track.prediction.position);
+bool is_due(const Track& track, const TrackerConfig& config, const SensorTraits& sensor,
+            double time) {
+  return is_look(track, sensor, time) &&
+         (contains(sensor.field_of_view, track.prediction.position) || is_below(track, config));
 }
 
-void miss(Track& track, const SensorTraits& sensor, double time) {
-  const bool due = is_due(track, sensor, time);
+void miss(Track& track, const TrackerConfig& config, const SensorTraits& sensor, double time) {
+  const bool due = is_due(track, config, sensor, time);
   if (is_look(track, sensor, time)) ++track.unseen;
   if (!due) return;
   coast(track.filter);

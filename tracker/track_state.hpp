@@ -11,6 +11,7 @@
 #include "tracker/nearest_tree.hpp"
 #include "tracker/prediction.hpp"
 #include "tracker/track.hpp"
+#include "tracker/tracker_config.hpp"
 
 namespace ghtrack {
 
@@ -65,10 +66,12 @@ void pull(Track& track, std::span<const Weighted> probable);
 void note_detection(Track& track, const PlacedDetection& found, double time);
 
 /// Should this scan have shown the track's target? Where the sensor sees, and with partial scans
-/// when it is time for the next look at the place.
-bool is_due(const Track& track, const SensorTraits& sensor, double time);
+/// when it is time for the next look at the place. Below the floor nothing hides: whoever is expected
+/// there, and farther below than the gate reaches, would be somewhere else and seen.
+bool is_due(const Track& track, const TrackerConfig& config, const SensorTraits& sensor,
+            double time);
 
 /// The track has no detection in a scan. It counts as missed if it was due.
-void miss(Track& track, const SensorTraits& sensor, double time);
+void miss(Track& track, const TrackerConfig& config, const SensorTraits& sensor, double time);
 
 }  // namespace ghtrack

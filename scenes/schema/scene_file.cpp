@@ -109,6 +109,12 @@ void name_sensors(std::vector<SensorConfig>& sensors) {
   }
 }
 
+/// Who tracks what moves above the ground knows where it is, as whoever sets up a sensor does.
+void find_floor(WorldScene& world) {
+  if (world.tracker.floor || !world.environment.ground) return;
+  world.tracker.floor = world.environment.ground->lowest();
+}
+
 }  // namespace
 
 Scene read_scene_text(std::string_view text, const std::string& name,
@@ -139,6 +145,7 @@ Scene read_scene_text(std::string_view text, const std::string& name,
     schema::read_recordings(world->targets, std::filesystem::path(name).parent_path());
     name_targets(world->targets);
     name_sensors(world->sensors);
+    find_floor(*world);
   }
   return std::move(file.scene);
 }

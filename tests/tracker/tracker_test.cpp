@@ -125,6 +125,40 @@ TEST(Tracker, MissesOutsideTheFieldOfViewDoNotCount) {
   EXPECT_TRUE(state.tracks.empty());
 }
 
+// Property: a track that goes below the floor ends as if it were in view; one that goes as far aside
+// lives on, and so does one that is still above the floor.
+TEST(Tracker, NothingHidesBelowTheFloor) {
+  TrackerConfig counts, existence, hypotheses;
+  counts.life_cycle = LifeCycle::kCounts;
+  existence.life_cycle = hypotheses.life_cycle = LifeCycle::kExistence;
+  hypotheses.association = Association::kMultiScan;
+  for (TrackerConfig config : {counts, existence, hypotheses}) {
+    const auto scans_to_let_go = [&](const Vector2d& velocity, double floor) {
+      config.filters["default"] = GhConfig{};
+      config.drop_unseen = 1000;
+      config.floor = floor;
+      const TrackerDesign tracker(
+          config, {{.period = kPeriod,
+                    .sigma = kSigma,
+                    .field_of_view = Eigen::AlignedBox2d(Vector2d(-20, 0), Vector2d(6, 30))}});
+      TrackerState state;
+      for (int i = -30; i <= 0; ++i) {
+        state = step(tracker, std::move(state),
+                     scan_of(kPeriod * i, {Vector2d(5, 1) + kPeriod * i * velocity}));
+      }
+      int misses = 0;
+      while (!state.tracks.empty() && misses < 30) {
+        state = step(tracker, std::move(state), scan_of(kPeriod * ++misses, {}));
+      }
+      return misses;
+    };
+    const Vector2d down(0, -6), aside(6, 0);
+    EXPECT_LT(scans_to_let_go(down, 0.0), 12);
+    EXPECT_EQ(scans_to_let_go(aside, 0.0), 30);
+    EXPECT_EQ(scans_to_let_go(down, -100.0), 30);
+  }
+}
+
 // Property: the world has no preferred origin; 1024 m is exact in binary, so only rounding differs.
 TEST(Tracker, ShiftingTheWorldShiftsTheTracks) {
   const TrackerDesign tracker = design();
