@@ -57,6 +57,7 @@ struct VideoCommandOptions {
   VideoLook look;
   std::optional<double> fps, slow, from, to;
   std::string encoder = "auto";
+  std::optional<int> jobs;  // threads; as many as the machine has
   std::string poster;  // PNG file; empty: none
   bool compare = false;
 };

@@ -226,8 +226,12 @@ void add_video(CLI::App& app, VideoCommandOptions& options) {
   command
       .add_option("--encoder", options.encoder,
                   "ffmpeg (a pipe to the program), opencv (no other process; no webm, no gif), "
-                  "or auto: ffmpeg where it is installed, else opencv")
+                  "or auto: libavcodec for mp4, in pieces that are drawn and encoded at the same "
+                  "time; for the rest ffmpeg where it is installed, else opencv")
       ->capture_default_str();
+  add_number(command, "--jobs", options.jobs, {.least = 1, .most = 1024},
+             "pieces of an mp4 that are made at the same time (default: one per processor); the "
+             "bytes do not depend on it");
   command.add_option("--poster", options.poster, "also write the last picture to this PNG file");
   command.add_flag("--compare", options.compare,
                    "the filters under `compare` in the scene side by side, on the same detections");

@@ -58,6 +58,7 @@ render::VideoOptions changed_by(const VideoCommandOptions& options, render::Vide
   video.from = options.from.value_or(video.from);
   if (options.to) video.to = options.to;
   video.encoder = parse_encoder(options.encoder);
+  video.jobs = static_cast<std::size_t>(options.jobs.value_or(0));
   return video;
 }
 

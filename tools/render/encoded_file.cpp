@@ -5,8 +5,6 @@
 #include <system_error>
 #include <thread>
 
-#include "tools/render/output_path.hpp"
-
 namespace ghtrack::render {
 
 namespace fs = std::filesystem;
@@ -86,17 +84,11 @@ class EncodingThread {
 };
 
 EncodedFile::EncodedFile(const VideoOptions& options)
-    : path_(options.path),
-      partial_(partial_path(options.path)),
-      encoder_(make_encoder(options, partial_)),
+    : file_(options.path),
+      encoder_(make_encoder(options, file_.partial())),
       encoding_(std::make_unique<EncodingThread>(*encoder_)) {}
 
-EncodedFile::~EncodedFile() {
-  encoding_.reset();
-  encoder_.reset();
-  std::error_code ignored;
-  if (!is_wanted_) fs::remove_all(partial_, ignored);
-}
+EncodedFile::~EncodedFile() = default;
 
 cv::Mat& EncodedFile::next_image() {
   if (frames_ > 0) encoding_->add(image_);  // the last one stays here for a poster
@@ -110,25 +102,20 @@ void EncodedFile::write_poster(const fs::path& path) const {
 }
 
 void EncodedFile::finish() {
-  if (frames_ == 0) throw OutputError("cannot write '" + path_.string() + "': it has no frames");
   complete();
-  commit_file(partial_, path_);
-  is_wanted_ = true;
+  file_.commit(frames_);
 }
 
 void EncodedFile::keep_partial() {
-  if (frames_ == 0) return;
   complete();
-  is_wanted_ = true;
+  file_.keep(frames_);
 }
 
-/// Makes a whole, verified video of the frames so far.
 void EncodedFile::complete() {
+  if (frames_ == 0) return;
   encoding_->add(image_);
   encoding_->finish();
   encoder_->close();
-  const bool is_video = !is_picture_folder(path_) && path_.extension() != ".png";
-  if (is_video) verify_video(partial_, frames_);  // pictures were verified one by one
 }
 
 }  // namespace ghtrack::render

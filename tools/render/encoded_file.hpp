@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "tools/render/encoder.hpp"
+#include "tools/render/unfinished_video.hpp"
 
 namespace ghtrack::render {
 
@@ -31,11 +32,9 @@ class EncodedFile {
  private:
   void complete();
 
-  std::filesystem::path path_;
-  std::filesystem::path partial_;
+  UnfinishedVideo file_;
   cv::Mat image_;  // drawn last
   std::size_t frames_ = 0;
-  bool is_wanted_ = false;
   std::unique_ptr<ImageEncoder> encoder_;
   std::unique_ptr<EncodingThread> encoding_;
 };

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/render/codecs.hpp"
+#include "tools/render/h264_segment.hpp"
+#include "tools/render/mp4_file.hpp"
 #include "tools/render/output_path.hpp"
 
 namespace ghtrack::render {
@@ -59,17 +62,56 @@ class PngSequence : public ImageEncoder {
   std::size_t count_ = 0;
 };
 
+class SegmentEncoder : public ImageEncoder {
+ public:
+  SegmentEncoder(const VideoOptions& options, const fs::path& file)
+      : options_(options), segment_(std::in_place, options, 0), file_(file, segment_->codec()) {}
+
+  void add(const cv::Mat& image) override {
+    if (!segment_) segment_.emplace(options_, images_);
+    segment_->add(image);
+    if (++images_ % H264Segment::kImages == 0) finish_segment();
+  }
+
+  void close() override {
+    if (segment_) finish_segment();
+    file_.close();
+  }
+
+ private:
+  void finish_segment() {
+    file_.add(segment_->finish());
+    segment_.reset();
+  }
+
+  VideoOptions options_;
+  std::size_t images_ = 0;
+  std::optional<H264Segment> segment_;
+  Mp4File file_;
+};
+
 }  // namespace
+
+bool is_made_in_segments(const VideoOptions& options) {
+  return options.encoder == Encoder::kAutomatic && options.path.extension() == ".mp4" &&
+         H264Segment::is_available();
+}
 
 std::unique_ptr<ImageEncoder> make_encoder(const VideoOptions& options, const fs::path& file) {
   if (is_picture_folder(options.path)) return make_png_sequence(file);
   if (file.extension() == ".png") return make_png_encoder(file);
+  if (is_made_in_segments(options)) return make_segment_encoder(options, file);
   if (options.encoder == Encoder::kOpenCv) return make_opencv_encoder(options, file);
   const fs::path program = find_ffmpeg();
   if (!program.empty()) return make_ffmpeg_encoder(options, program, file);
   if (options.encoder == Encoder::kFfmpeg)
     throw OutputError("the encoder ffmpeg is not installed; available: opencv");
   return make_opencv_encoder(options, file);
+}
+
+std::unique_ptr<ImageEncoder> make_segment_encoder(const VideoOptions& options,
+                                                   const fs::path& file) {
+  return std::make_unique<SegmentEncoder>(options, file);
 }
 
 std::unique_ptr<ImageEncoder> make_opencv_encoder(const VideoOptions& options,

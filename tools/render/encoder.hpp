@@ -22,6 +22,13 @@ class ImageEncoder {
 std::unique_ptr<ImageEncoder> make_encoder(const VideoOptions& options,
                                            const std::filesystem::path& file);
 
+/// Whether these are encoded in H.264 by libavcodec, in segments that do not depend on each other.
+bool is_made_in_segments(const VideoOptions& options);
+
+/// libavcodec and libavformat, one segment after the other: mp4.
+std::unique_ptr<ImageEncoder> make_segment_encoder(const VideoOptions& options,
+                                                   const std::filesystem::path& file);
+
 /// OpenCV's FFmpeg backend: mp4, avi, mkv.
 std::unique_ptr<ImageEncoder> make_opencv_encoder(const VideoOptions& options,
                                                   const std::filesystem::path& file);

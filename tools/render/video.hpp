@@ -30,7 +30,7 @@ struct Rectangle {
 
 /// Who turns images into a file.
 enum class Encoder {
-  kAutomatic,  // ffmpeg if it is installed, else OpenCV
+  kAutomatic,  // libavcodec for mp4; for the rest ffmpeg if it is installed, else OpenCV
   kFfmpeg,     // a pipe to the program `ffmpeg`: half the time and better quality
   kOpenCv,     // OpenCV's own FFmpeg backend: no other process; no webm, no gif
 };
@@ -65,6 +65,9 @@ struct VideoOptions {
   std::optional<double> to;  // [s] scene time at which the video ends; the scene's end if absent
   Layers layers = kDefaultLayers;
   Encoder encoder = Encoder::kAutomatic;
+  /// Pieces of an mp4 that are drawn and encoded at a time, on which its bytes do not depend; 0: as
+  /// many as the machine has processors.
+  std::size_t jobs = 0;
   std::vector<Shot> shots;  // in the order of time; before the first the whole world is shown
   double glide = 1.5;       // [s] scene time that the camera takes from shot to shot
   std::vector<CloseUp> close_ups;  // one above the other where they share a corner

@@ -2,6 +2,7 @@
 
 #include "tools/render/encoded_file.hpp"
 #include "tools/render/picture.hpp"
+#include "tools/render/segmented_video.hpp"
 
 namespace ghtrack::render {
 
@@ -26,6 +27,7 @@ class VideoFile : public VideoSink {
 }  // namespace
 
 std::unique_ptr<VideoSink> open_video_file(const VideoOptions& options, const SceneDrawing& scene) {
+  if (is_made_in_segments(options)) return open_segmented_video(options, scene);
   return std::make_unique<VideoFile>(options, scene);
 }
 

@@ -125,6 +125,29 @@ TEST_F(Video, RepeatsItsBytes) {
   }
 }
 
+// Property: a film of several pieces has the same bytes whatever the number of those that are made at a
+// time, also if it goes on from what was not shown.
+TEST_F(Video, HasTheSameBytesForAnyNumberOfJobs) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffprobe is not installed";
+  std::string first;
+  for (const std::size_t jobs : {1U, 2U, 3U, 8U}) {
+    VideoOptions video = options("run.mp4", Encoder::kAutomatic);
+    video.jobs = jobs;
+    SyntheticScene scene(2);
+    VideoWriter writer(video, scene.drawing());
+    for (int i = 0; i < 20; ++i) writer.remember(scene.next());
+    for (int i = 0; i < 150; ++i) writer.add_frame(scene.next());
+    writer.finish();
+    const std::string now = bytes(video.path);
+    if (jobs == 1) first = now;
+    EXPECT_TRUE(now == first) << jobs << " jobs: " << now.size() << " bytes for " << first.size();
+  }
+  EXPECT_THAT(output_of("ffprobe -v error -count_frames -select_streams v -show_entries "
+                        "stream=nb_read_frames,duration -of default=nw=1 " +
+                        (folder_ / "run.mp4").string()),
+              testing::AllOf(HasSubstr("nb_read_frames=150"), HasSubstr("duration=5.0000")));
+}
+
 // Property: without finish() nothing is left behind.
 TEST_F(Video, LeavesNothingWhenItIsGivenUp) {
   for (const Encoder encoder : {Encoder::kOpenCv, Encoder::kAutomatic}) {
@@ -206,14 +229,18 @@ TEST_F(Video, FailsOnAFullDisk) {
 
 // Property: a poster shows the frame drawn last; there is none before the first.
 TEST_F(Video, GivesAPosterOfItsLatestFrame) {
-  SyntheticScene scene;
-  VideoWriter video(options("x.mp4"), scene.drawing());
-  EXPECT_THROW(video.write_poster(folder_ / "poster.png"), OutputError);
-  video.add_frame(scene.next());
-  video.write_poster(folder_ / "poster.png");
-  EXPECT_THROW(video.write_poster(folder_ / "poster.jpg"), RequestError);
-  video.finish();
-  EXPECT_EQ(bytes(folder_ / "poster.png").substr(1, 3), "PNG");
+  for (const Encoder encoder : {Encoder::kOpenCv, Encoder::kAutomatic}) {
+    SyntheticScene scene;
+    VideoWriter video(options("x.mp4", encoder), scene.drawing());
+    EXPECT_THROW(video.write_poster(folder_ / "poster.png"), OutputError);
+    for (int i = 0; i < 70; ++i) video.add_frame(scene.next());
+    video.write_poster(folder_ / "poster.png");
+    EXPECT_THROW(video.write_poster(folder_ / "poster.jpg"), RequestError);
+    const std::string poster = bytes(folder_ / "poster.png");
+    video.finish();
+    write(options("last.png"), 70);
+    EXPECT_TRUE(poster == bytes(folder_ / "last.png"));
+  }
 }
 
 // Derived: 20 s at 30 frames per second are 600 frames; four times slower 2400.
