@@ -149,10 +149,13 @@ void KittiReader::rewind() { state_->frames.rewind(); }
 
 void append_kitti_row(std::string& text, const KittiRow& row) {
   const MotRow& box = row.box;
-  fmt::format_to(std::back_inserter(text),
-                 "{} {} {} -1 -1 -10 {:.2f} {:.2f} {:.2f} {:.2f} -1 -1 -1 -1000 -1000 -1000 -10 {}\n",
-                 box.frame - 1, box.id, row.type, box.left - 1.0, box.top - 1.0,
-                 box.left - 1.0 + box.width, box.top - 1.0 + box.height, box.confidence);
+  const double left = box.left - 1.0, top = box.top - 1.0;
+  fmt::format_to(std::back_inserter(text), "{} {} {} -1 -1 -10", box.frame - 1, box.id, row.type);
+  for (const double value : {left, top, left + box.width, top + box.height}) {
+    text += ' ';
+    append_hundredths(text, value);
+  }
+  fmt::format_to(std::back_inserter(text), " -1 -1 -1 -1000 -1000 -1000 -10 {}\n", box.confidence);
 }
 
 }  // namespace ghtrack

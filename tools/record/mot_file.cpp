@@ -210,8 +210,12 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
 }
 
 void append_mot_row(std::string& text, const MotRow& row) {
-  fmt::format_to(std::back_inserter(text), "{},{},{:.2f},{:.2f},{:.2f},{:.2f},{},-1,-1,-1\n",
-                 row.frame, row.id, row.left, row.top, row.width, row.height, row.confidence);
+  fmt::format_to(std::back_inserter(text), "{},{}", row.frame, row.id);
+  for (const double value : {row.left, row.top, row.width, row.height}) {
+    text += ',';
+    append_hundredths(text, value);
+  }
+  fmt::format_to(std::back_inserter(text), ",{},-1,-1,-1\n", row.confidence);
 }
 
 SequenceInfo read_sequence_info(const std::filesystem::path& path) {

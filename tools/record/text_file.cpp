@@ -1,6 +1,7 @@
 #include "tools/record/text_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -278,6 +280,24 @@ std::optional<std::int64_t> parse_whole(std::string_view text) {
 std::optional<std::int64_t> as_whole(double value) {
   if (std::trunc(value) != value || std::abs(value) > kLargestWhole) return std::nullopt;
   return static_cast<std::int64_t>(value);
+}
+
+void append_hundredths(std::string& text, double value) {
+  const double hundredths = std::abs(value) * 100.0;
+  const double nearest = std::floor(hundredths + 0.5);
+  // Near a tie the digits decide that the product has rounded away.
+  const bool is_clear =
+      hundredths < 1e12 && std::abs(std::abs(hundredths - nearest) - 0.5) > 1e-3;
+  if (!is_clear) {
+    fmt::format_to(std::back_inserter(text), "{:.2f}", value);
+    return;
+  }
+  const auto whole = static_cast<std::int64_t>(nearest);
+  if (std::signbit(value)) text += '-';
+  const fmt::format_int integer(whole / 100);
+  text.append(integer.data(), integer.size());
+  const auto decimals = static_cast<char>(whole % 100);
+  text += {'.', static_cast<char>('0' + decimals / 10), static_cast<char>('0' + decimals % 10)};
 }
 
 std::string in_quotes(std::string_view text) {

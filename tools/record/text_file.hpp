@@ -79,6 +79,9 @@ std::optional<double> parse_number(std::string_view text, char point = '.');
 std::optional<std::int64_t> parse_whole(std::string_view text);
 std::optional<std::int64_t> as_whole(double value);
 
+/// Appends a number with two decimals, those of the nearest such number (as `{:.2f}` does).
+void append_hundredths(std::string& text, double value);
+
 /// The text in quotes, safe for a terminal and short enough for a message.
 std::string in_quotes(std::string_view text);
 

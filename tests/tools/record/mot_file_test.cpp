@@ -2,6 +2,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/record/mot_file.hpp"
@@ -184,6 +191,26 @@ TEST(MotFile, RefusesFramesPastTheEnd) {
   const auto read = [](const auto& path) { read_mot_file(path, MotKind::kResult, 100); };
   EXPECT_EQ(message_of("1,1,1,2,3,4\n101,1,1,2,3,4\n", read),
             "in.csv:2: error: frame '101' is not a whole number from 1 to 100");
+}
+
+// Property: two decimals are those of exact rounding, at ties, near them, and anywhere else.
+TEST(TextFile, AppendsTheNearestHundredths) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> anywhere(-3000.0, 3000.0);
+  std::vector<double> values{0.0,   -0.0,   0.005,      0.015, 1.005, -0.004,
+                             0.125, -2.375, 1e9 + 0.25, 1e17,  -1e300};
+  for (int i = 0; i < 20000; ++i) {
+    values.push_back(anywhere(random));
+    const double tie = std::round(values.back()) + 0.125;
+    values.insert(values.end(), {tie, std::nextafter(tie, 1e9), std::nextafter(tie, -1e9)});
+  }
+  for (const double value : values) {
+    std::string text;
+    append_hundredths(text, value);
+    std::array<char, 400> exact{};
+    std::snprintf(exact.data(), exact.size(), "%.2f", value);
+    EXPECT_EQ(text, exact.data());
+  }
 }
 
 // Property: rows written are rows read, to the two decimals of the format.
