@@ -23,11 +23,16 @@ std::string unit_of(const Table& table, std::size_t column) {
   return unit ? unit->name : "m";
 }
 
-/// Whether degrees come as whole numbers that no degrees could be: of 1e-7, as autopilots log them.
-bool is_in_tenths_of_microdegrees(const Table& table, std::size_t column) {
+/// Whether a column of degrees has whole numbers that no degrees could be.
+bool has_parts_of_degrees(const Table& table, std::size_t column) {
   constexpr double kLeast = 1e5;
   const auto first = parse_number(table.first_value(column), table.dialect().point);
   return first && std::abs(*first) > kLeast && std::trunc(*first) == *first;
+}
+
+/// Whether a column is named as FIT, the format of Garmin's devices, names a position.
+bool is_of_fit(const Table& table, std::size_t column) {
+  return table.headings()[column].base.starts_with("position_l");  // _lat, _long
 }
 
 }  // namespace
@@ -44,9 +49,10 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
     origin_.reset();
     x_scale_ = scale_of(table, x_);
     y_scale_ = scale_of(table, y_);
-  } else if (is_in_tenths_of_microdegrees(table, x_) && is_in_tenths_of_microdegrees(table, y_)) {
-    is_whole_ = true;
-    x_scale_ = y_scale_ = Scale::of_parts(1e7);
+  } else if (has_parts_of_degrees(table, x_) && has_parts_of_degrees(table, y_)) {
+    const bool is_fit = is_of_fit(table, x_) && is_of_fit(table, y_);
+    degrees_ = is_fit ? "semicircles" : "1e-7 degrees";  // the latter as autopilots log them
+    x_scale_ = y_scale_ = Scale::of_parts(is_fit ? 0x1p31 / 180.0 : 1e7);
   }
   const auto both = columns.find(Role::kSigma);
   sigma_x_ = columns.has(Role::kSigmaX) ? columns.find(Role::kSigmaX) : both;
@@ -109,8 +115,7 @@ std::string FixColumns::describe(const Table& table) const {
   const auto name = [&](std::size_t column) { return name_of_column(table, column); };
   std::string text = time_.describe(table);
   if (geographic_) {
-    text += fmt::format(", x and y in m from {}degrees in {} and {}", is_whole_ ? "1e-7 " : "",
-                        name(x_), name(y_));
+    text += fmt::format(", x and y in m from {} in {} and {}", degrees_, name(x_), name(y_));
     if (origin_) {
       text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin_->latitude,
                           origin_->longitude);

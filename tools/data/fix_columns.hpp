@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "tools/data/place.hpp"
 #include "tools/data/table.hpp"
@@ -45,7 +46,7 @@ class FixColumns {
 
   Scale x_scale_, y_scale_, sigma_x_scale_, sigma_y_scale_;
   bool geographic_ = false;
-  bool is_whole_ = false;  // degrees come as whole numbers of 1e-7, as autopilots log them
+  std::string_view degrees_ = "degrees";  // what the numbers are, where they are geographic
   std::optional<GeoPoint> origin_;
 };
 

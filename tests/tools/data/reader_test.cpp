@@ -156,13 +156,14 @@ TEST(ScanReader, TakesTheOrderOfDatesFromTheFirst) {
             "1.0368e+06/0: 1,2; 1.1232e+06/0: 3,4; ");
 }
 
-// Property: degrees, minutes and seconds, and whole numbers of 1e-7 degrees, are the same places;
-// that a ship does not know where it is, is no place.
+// Property: degrees, minutes and seconds, whole numbers of 1e-7 degrees, and the semicircles of FIT,
+// 2^31 to 180°, are the same places; that a ship does not know where it is, is no place.
 TEST(ScanReader, ReadsDegreesInEveryForm) {
-  const auto last = [](const std::string& first, const std::string& second) {
+  const auto last = [](const std::string& first, const std::string& second,
+                       const std::string& columns = "lat,lon") {
     const ScratchFolder folder;
     ScanReader reader(
-        folder.write("in.csv", "t,lat,lon\n0," + first + "\n1," + second + "\n").string());
+        folder.write("in.csv", "t," + columns + "\n0," + first + "\n1," + second + "\n").string());
     Scan scan;
     reader.next(scan);
     reader.next(scan);
@@ -172,6 +173,9 @@ TEST(ScanReader, ReadsDegreesInEveryForm) {
   EXPECT_TRUE(last("49°30'00\"N,8°15'00\"E", "49°30'3.6\"N,8°15'3.6\"E").isApprox(expected, 1e-9));
   EXPECT_TRUE(last("49°30.000'N,8°15.000'E", "49°30.060'N,8°15.060'E").isApprox(expected, 1e-9));
   EXPECT_TRUE(last("495000000,82500000", "495010000,82510000").isApprox(expected, 1e-9));
+  const Eigen::Vector2d fit =
+      last("590558003,98426334", "590569934,98438264", "position_lat,position_long");
+  EXPECT_TRUE(fit.isApprox(expected, 1e-3)) << fit.transpose();  // a semicircle is 9 mm
   EXPECT_EQ(last("49.5,8.25", "91,181"), Eigen::Vector2d(-1.0, -1.0));
   EXPECT_THAT(message_of("t,lat,lon\n0,49°30'E,8°15'E\n",
                          [](const auto& path) { ScanReader reader(path.string()); }),
