@@ -13,11 +13,13 @@ namespace ghtrack {
 namespace {
 
 constexpr double kParting = 1e-9;    // slower than this two bodies neither part nor close [m/s]
+constexpr double kSameSpeed = 1e-9;  // of two that close equally fast, but for rounding
 constexpr double kClinging = 1e-4;   // what is pressed together does not part at less [m/s]
 constexpr double kOverlap = 1e-10;   // a smaller one is a rounding error [m]
 constexpr double kSlipDecay = 0.02;  // time in which the last slip of a rolling body dies [s]
 constexpr double kCreep = 1e-3;      // slower slip in a heap is sticking that has not settled [m/s]
 constexpr double kAtRest = 1e-7;     // slower than this, and held, a body rests [m/s]
+constexpr double kHeld = 1e-6;       // a smaller acceleration is a rounding error [m/s²]
 constexpr double kLongestTogether = 1.0 / 240.0;  // step of bodies that are pressed together [s]
 constexpr double kShortestStep = 1e-6;            // where hits follow each other without end [s]
 constexpr int kMostSamples = 2000;                // of a step, in the search for the first touch
@@ -283,10 +285,45 @@ class Encounter {
                         : std::find_if(closing.begin(), closing.end(), [&](const auto& one) {
                             return bounces(now, one.second, one.first);
                           });
-      if (bouncing == closing.end()) return stop_together(now);
-      strike(now, bouncing->second);
-      ++hits_;
+      if (bouncing == closing.end()) {
+        answer_together(now, touching(now, std::numeric_limits<double>::infinity()), false);
+        return;
+      }
+      const std::vector<Pair> struck = struck_at_once(now, {bouncing, closing.end()});
+      if (struck.size() == 1) {
+        strike(now, struck.front());
+      } else {
+        answer_together(now, heap_of(now, struck), true);
+      }
+      hits_ += static_cast<int>(struck.size());
     }
+  }
+
+  /// Of the pairs that close, fastest first, those that bounce together with the first: they share
+  /// bodies and close equally fast, as where one ball hits two in the middle.
+  std::vector<Pair> struck_at_once(const Instant& now,
+                                   const std::vector<std::pair<double, Pair>>& closing) const {
+    std::vector<Pair> struck{closing.front().second};
+    std::vector<bool> involved(yielding_.size(), false);
+    const auto involve = [&](const Pair& pair) {
+      involved[at(pair.one)] = true;
+      if (pair.kind == Partner::kRound) involved[at(pair.other)] = true;
+    };
+    const auto gives_way = [&](const Pair& pair) {
+      return pair.kind != Partner::kRound || flight(now, pair.other) != nullptr;
+    };
+    if (!gives_way(struck.front())) return struck;
+    involve(struck.front());
+    for (std::size_t i = 1; i < closing.size(); ++i) {
+      const auto& [speed, pair] = closing[i];
+      if (speed < (1.0 - kSameSpeed) * closing.front().first) break;
+      const bool shares = involved[at(pair.one)] ||
+                          (pair.kind == Partner::kRound && involved[at(pair.other)]);
+      if (!shares || !gives_way(pair) || !bounces(now, pair, speed)) continue;
+      involve(pair);
+      struck.push_back(pair);
+    }
+    return struck;
   }
 
   bool bounces(const Instant& now, const Pair& pair, double approach) const {
@@ -350,9 +387,8 @@ class Encounter {
     record(now, pair, impulse);
   }
 
-  /// The impact without restitution of all that touches.
-  void stop_together(Instant& now) {
-    Heap heap = touching(now, std::numeric_limits<double>::infinity());
+  /// The impact of all these pairs at once, with restitution or without.
+  void answer_together(Instant& now, Heap heap, bool bouncing) {
     const std::vector<FlightState> before = states_of(now, heap);
     std::vector<Pushed> pushed = pushed_by(heap);
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -371,6 +407,7 @@ class Encounter {
         touch.normal_offset = -there.normal.dot(there.velocity);
         touch.slip_offset = -tangent_to(there.normal).dot(there.velocity);
       }
+      if (bouncing) touch.normal_offset += restitution_of(pair) * parting(now, pair, there);
     }
     solve_contacts(pushed, heap.touches, kImpulseSweeps);
     std::vector<FlightState> after = before;
@@ -417,7 +454,6 @@ class Encounter {
   /// All that touches and moves against each other at no more than this speed.
   Heap touching(const Instant& now, double speed) const {
     Heap heap;
-    heap.place.assign(yielding_.size(), -1);
     std::vector<bool> involved(yielding_.size(), false);
     const auto touches = [&](const Pair& pair) {
       const Gap there = gap(now, pair);
@@ -437,6 +473,25 @@ class Encounter {
       heap.pairs.push_back(pair);
       involved[at(pair.one)] = true;
     }
+    take_in(now, involved, heap);
+    return heap;
+  }
+
+  Heap heap_of(const Instant& now, const std::vector<Pair>& pairs) const {
+    Heap heap;
+    heap.pairs = pairs;
+    std::vector<bool> involved(yielding_.size(), false);
+    for (const Pair& pair : pairs) {
+      involved[at(pair.one)] = true;
+      if (pair.kind == Partner::kRound) involved[at(pair.other)] = true;
+    }
+    take_in(now, involved, heap);
+    return heap;
+  }
+
+  /// Gives a heap of pairs its bodies.
+  void take_in(const Instant& now, const std::vector<bool>& involved, Heap& heap) const {
+    heap.place.assign(yielding_.size(), -1);
     for (int i = 0; i < static_cast<int>(yielding_.size()); ++i) {
       if (!involved[at(i)]) continue;
       heap.place[at(i)] = static_cast<int>(heap.bodies.size());
@@ -444,7 +499,6 @@ class Encounter {
       heap.turning.push_back(portable::sign(flight(now, i)->spin));
     }
     heap.touches.resize(heap.pairs.size());
-    return heap;
   }
 
   /// Those that forces press together or that come back to each other again and again, with all that
@@ -575,8 +629,8 @@ class Encounter {
   }
 
   /// One common Runge–Kutta step.
-  /// @param lasting  not a trial
-  void move_heap(const Instant& start, Instant& end, Heap heap, bool lasting) const {
+  /// @returns the heap with the pushes at its end
+  Heap move_heap(const Instant& start, Instant& end, Heap heap) const {
     const double step = end.time - start.time;
     const std::vector<FlightState> before = states_of(start, heap);
     const std::size_t count = before.size();
@@ -594,6 +648,10 @@ class Encounter {
     const double half = start.time + 0.5 * step;
     const std::vector<Passer> passing_half = passers_at(half);
     const std::vector<FlightRate> k1 = rates(before, heap, start.time, start.passing);
+    if (stays_at_rest(before, k1, heap) &&
+        stays_at_rest(before, rates(before, heap, end.time, end.passing), heap)) {
+      return heap;
+    }
     const std::vector<FlightState> s2 = moved(before, k1, 0.5 * step);
     const std::vector<FlightRate> k2 = rates(s2, heap, half, passing_half);
     const std::vector<FlightState> s3 = moved(s2, k2, 0.5 * step);
@@ -627,7 +685,20 @@ class Encounter {
       FlightState& state = *flight(end, pair.one);
       (state.support < 0 ? state.support : state.second_support) = pair.other;
     }
-    if (lasting) note_leaning(end, heap);
+    return heap;
+  }
+
+  /// Whether bodies that stand are held where they are.
+  bool stays_at_rest(const std::vector<FlightState>& states, const std::vector<FlightRate>& rates,
+                     const Heap& heap) const {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const double radius = bodies_[at(heap.bodies[i])].radius;
+      if (states[i].velocity != Vec2::Zero() || states[i].spin != 0.0 ||
+          rates[i].acceleration.norm() > kHeld || std::abs(rates[i].spin) * radius > kHeld) {
+        return false;
+      }
+    }
+    return true;
   }
 
   bool rolls(const Heap& heap, int place) const {
@@ -714,7 +785,6 @@ class Encounter {
   /// Keeps what the truth says of bodies that lean on others, and brings to rest what hardly moves.
   void note_leaning(Instant& now, Heap heap) const {
     if (heap.bodies.empty()) return;
-    constexpr double kHeld = 1e-6;  // a smaller acceleration is a rounding error [m/s²]
     const std::vector<FlightRate> rate = rates(now, heap);
     for (std::size_t i = 0; i < heap.bodies.size(); ++i) {
       FlightState& state = *flight(now, heap.bodies[i]);
@@ -733,27 +803,37 @@ class Encounter {
 
   // Motion.
 
-  /// Everyone at a later time: those in the heap together, the others alone.
-  Instant moved(const Instant& start, const Heap& heap, double time,
-                std::vector<ImpactLog>* logs) const {
-    if (time == start.time) return start;
-    Instant end{time, start.round, passers_at(time)};
-    for (std::size_t i = 0; i < yielding_.size(); ++i) {
-      if (heap.place[i] >= 0) continue;
-      yielding_[i].mover->advance(end.round[i], environment_, start.time, time,
-                                  logs != nullptr ? &(*logs)[i] : nullptr);
-    }
-    if (!heap.bodies.empty()) move_heap(start, end, heap, logs != nullptr);
-    return end;
-  }
-
   /// A step of the heap, and where everyone is within it: those in the heap on cubics, which saves
   /// to solve for their forces again and again, the others as they move alone.
   struct Trial {
     const Instant& start;
     const Heap& heap;
-    Instant end;
+    Instant end;     // of the heap alone
+    Heap heap_then;  // with the pushes there
   };
+
+  Trial try_step(const Instant& start, const Heap& heap, double time) const {
+    Trial trial{start, heap, start, {}};
+    trial.end.time = time;
+    if (heap.bodies.empty() || time == start.time) return trial;
+    trial.end.passing = passers_at(time);
+    trial.heap_then = move_heap(start, trial.end, heap);
+    return trial;
+  }
+
+  /// Everyone at the end of a step: those in the heap together, the others alone.
+  Instant finished(Trial trial, std::vector<ImpactLog>& logs) const {
+    const double began = trial.start.time;
+    Instant end = std::move(trial.end);
+    if (end.time == began) return end;
+    if (trial.heap.bodies.empty()) end.passing = passers_at(end.time);
+    for (std::size_t i = 0; i < yielding_.size(); ++i) {
+      if (trial.heap.place[i] >= 0) continue;
+      yielding_[i].mover->advance(end.round[i], environment_, began, end.time, &logs[i]);
+    }
+    note_leaning(end, std::move(trial.heap_then));
+    return end;
+  }
 
   /// @param only  a pair whose motion alone is wanted
   /// @param log   of impacts on surfaces on the way
@@ -815,11 +895,12 @@ class Encounter {
     if (stalled_) step = std::min(step, kShortestStep);
     const double end = step == to_ - start.time ? to_ : start.time + step;
     meeting_.resolved = ++steps_ <= kMostSteps * static_cast<int>(yielding_.size());
+    Trial trial = try_step(start, heap, end);
     const std::optional<double> hit =
-        meeting_.resolved && !stalled_ ? first_hit(start, heap, end) : std::nullopt;
+        meeting_.resolved && !stalled_ ? first_hit(trial) : std::nullopt;
     stalled_ = hit && *hit - start.time < 0.01 * kShortestStep && ++short_steps_ > 3;
     std::vector<ImpactLog> logs(yielding_.size());
-    Instant then = moved(start, heap, hit.value_or(end), &logs);
+    Instant then = finished(hit ? try_step(start, heap, *hit) : std::move(trial), logs);
     for (std::size_t i = 0; i < logs.size(); ++i) {
       for (const Impact& impact : logs[i]) {
         meeting_.hits.push_back({impact.time, static_cast<int>(i), -1, impact.surface,
@@ -852,16 +933,12 @@ class Encounter {
     return pairs;
   }
 
-  /// The first instant before `end` at which a gap closes.
-  std::optional<double> first_hit(const Instant& start, const Heap& heap, double end) const {
-    std::vector<Pair> pairs = watched(heap);
+  /// The first instant of a step at which a gap closes.
+  std::optional<double> first_hit(const Trial& trial) const {
+    const Instant& start = trial.start;
+    const double end = trial.end.time;
+    std::vector<Pair> pairs = watched(trial.heap);
     if (pairs.empty()) return std::nullopt;
-    Trial trial{start, heap, start};
-    trial.end.time = end;
-    if (!heap.bodies.empty()) {
-      trial.end.passing = passers_at(end);
-      move_heap(start, trial.end, heap, false);
-    }
     ImpactLog impacts;
     const Instant last = within(trial, end, nullptr, &impacts);
     std::erase_if(pairs, [&](const Pair& pair) { return stay_apart(pair, start, last); });
@@ -927,7 +1004,8 @@ class Encounter {
     if (!(last.distance < -kOverlap && parting(after, pair, last) < -kParting)) {
       // Was it closer between the two?
       const bool turned_back = parting(before, pair, first) < 0.0 &&
-                               parting(after, pair, last) >= 0.0 && first.distance > kTouching;
+                               parting(after, pair, last) >= -kParting &&
+                               first.distance > kTouching;
       if (!turned_back) return std::nullopt;
       double closing = before.time;
       for (int i = 0; i < 60 && touching - closing > 1e-13; ++i) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <optional>
 
 #include "sim/contact_forces.hpp"
 
@@ -252,10 +254,68 @@ bool changes_on_supports(const FlightState& before, const FlightState& after, co
   return false;
 }
 
+namespace {
+
+/// Another surface that is hit at the same instant and equally fast, as where a ball falls into the
+/// middle of a valley.
+std::optional<std::size_t> struck_as_well(const FlightState& state, const RoundBody& body,
+                                          const std::vector<Surface>& surfaces,
+                                          std::size_t surface, double approach) {
+  constexpr double kSameSpeed = 1e-9;
+  const Vec2 normal = surfaces[surface].contact(state.position).normal;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (i == surface) continue;
+    const Contact contact = surfaces[i].contact(state.position);
+    if (std::abs(contact.distance - body.radius) > kTouching) continue;
+    if (contact.normal.dot(normal) > 1.0 - kSameNormal) continue;
+    if (std::abs(state.velocity.dot(contact.normal) + approach) <= kSameSpeed * approach) return i;
+  }
+  return std::nullopt;
+}
+
+/// The impact law for surfaces that are hit at once.
+/// @returns the impulse per mass [m/s]
+Vec2 strike(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces,
+            std::initializer_list<std::size_t> struck) {
+  std::vector<Pushed> one{{state.velocity, state.spin, 1.0,
+                           1.0 / (body.inertia * body.radius * body.radius), body.radius}};
+  std::vector<Touch> touches;
+  for (const std::size_t index : struck) {
+    const Surface& surface = surfaces[index];
+    Touch& touch = touches.emplace_back();
+    touch.normal = surface.contact(state.position).normal;
+    touch.friction = surface.friction.value_or(body.friction);
+    touch.normal_offset =
+        surface.restitution.value_or(body.restitution) * state.velocity.dot(touch.normal);
+  }
+  constexpr int kMostSweeps = 2000;
+  solve_contacts(one, touches, kMostSweeps);
+  const FlightState before = state;
+  state.velocity = one[0].rate;
+  state.spin = one[0].spin_rate;
+  keep_energy(before, state, {}, {}, body);
+  return state.velocity - before.velocity;
+}
+
+}  // namespace
+
 Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
             const std::vector<Surface>& surfaces, std::size_t surface) {
   Vec2 impulse = Vec2::Zero();
   constexpr int kMostEchoes = 50;  // to and fro between two supports
+  const auto may_rest_on = [&](std::size_t index, double departure) {
+    const Contact contact = surfaces[index].contact(state.position);
+    const double pressing =
+        -free.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
+    const double rest_speed =
+        std::max(kLeastBounce, std::sqrt(2.0 * kRestHeight * std::max(0.0, pressing)));
+    if (departure >= rest_speed || !(pressing > 0.0)) return;
+    add_support(state, static_cast<int>(index), surfaces);
+    keep_out(state, surfaces);
+  };
+  const auto restitution_of = [&](std::size_t index) {
+    return surfaces[index].restitution.value_or(body.restitution);
+  };
   for (int echo = 0; echo < kMostEchoes; ++echo) {
     const Surface& struck = surfaces[surface];
     const Contact contact = struck.contact(state.position);
@@ -263,28 +323,25 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
     const double approach = -state.velocity.dot(contact.normal);
     double departure = -approach;  // of a hop that is too low to be followed
     if (approach > 0.0) {
-      const double restitution = struck.restitution.value_or(body.restitution);
-      const double friction = struck.friction.value_or(body.friction);
-      const Vec2 tangent = tangent_to(contact.normal);
-      const double slipping = slip(state, body, tangent);
-      const double normal_impulse = (1.0 + restitution) * approach;
-      const double grip =
-          -portable::sign(slipping) *
-          std::min(friction * normal_impulse, std::abs(slipping) / (1.0 + 1.0 / body.inertia));
-      const Vec2 change = normal_impulse * contact.normal + grip * tangent;
-      state.velocity += change;
-      state.spin += grip / (body.inertia * body.radius);
-      impulse += body.mass * change;
-      departure = restitution * approach;
+      departure = restitution_of(surface) * approach;
+      if (const auto other = struck_as_well(state, body, surfaces, surface, approach)) {
+        impulse += body.mass * strike(state, body, surfaces, {surface, *other});
+        may_rest_on(*other, restitution_of(*other) * approach);
+      } else {
+        const double friction = struck.friction.value_or(body.friction);
+        const Vec2 tangent = tangent_to(contact.normal);
+        const double slipping = slip(state, body, tangent);
+        const double normal_impulse = (1.0 + restitution_of(surface)) * approach;
+        const double grip =
+            -portable::sign(slipping) *
+            std::min(friction * normal_impulse, std::abs(slipping) / (1.0 + 1.0 / body.inertia));
+        const Vec2 change = normal_impulse * contact.normal + grip * tangent;
+        state.velocity += change;
+        state.spin += grip / (body.inertia * body.radius);
+        impulse += body.mass * change;
+      }
     }
-    const double pressing =
-        -free.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
-    const double rest_speed =
-        std::max(kLeastBounce, std::sqrt(2.0 * kRestHeight * std::max(0.0, pressing)));
-    if (departure < rest_speed && pressing > 0.0) {
-      add_support(state, static_cast<int>(surface), surfaces);
-      keep_out(state, surfaces);
-    }
+    may_rest_on(surface, departure);
     // A support that is struck from the side answers in turn.
     const auto runs_into = [&](int index) {
       return index >= 0 && index != static_cast<int>(surface) &&

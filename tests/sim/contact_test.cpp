@@ -50,6 +50,19 @@ TEST(Contact, TurnsObliqueHitsByTheClosedForm) {
   }
 }
 
+// Derived: the same for a blow that only just grazes at 100 and 1000 m/s, closest at the very end of
+// a step.
+TEST(Contact, FollowsFastGrazingBlows) {
+  for (const double speed : {100.0, 1000.0}) {
+    const double offset = 0.999 * 0.2;
+    World world(in_empty_space({target_of(billiard_ball(Vec2(0.0, offset), Vec2(speed, 0.0)), "a"),
+                                target_of(billiard_ball(Vec2(50.0, 0.0), Vec2::Zero()), "b")}),
+                1);
+    const TruthSnapshot truth = world.sample(50.0 / speed + 0.05);
+    EXPECT_NEAR(angle_of(truth.objects[1].velocity), -std::asin(0.999), 1e-6) << speed;
+  }
+}
+
 // Derived: one ball missed by a hair stays where it is.
 TEST(Contact, LetsBallsPassThatDoNotTouch) {
   World world(in_empty_space({target_of(billiard_ball(Vec2(0.0, 0.0), Vec2(6.0, 0.0)), "a"),
@@ -98,6 +111,42 @@ TEST(Contact, HandsOnTheVelocityThroughACradle) {
     EXPECT_NEAR(momentum, 2.0 * arriving, 1e-12);
     for (std::size_t i = leaving; i < targets.size(); ++i) {
       EXPECT_NEAR(truth.objects[i].velocity.x(), 2.0, 1e-9) << arriving << ' ' << i;
+    }
+  }
+}
+
+// Derived: a ball that hits two equal ones in the middle, all three touching as an equilateral
+// triangle, gives each 2√3/5 of its speed, 30° to either side, and comes back with a fifth: momentum
+// and energy, by symmetry.
+TEST(Contact, PartsTwoBallsThatItHitsInTheMiddle) {
+  const double root = std::sqrt(3.0);
+  World world(in_empty_space({target_of(billiard_ball(Vec2(-1.0, 0.0), Vec2(5.0, 0.0)), "a"),
+                              target_of(billiard_ball(Vec2(0.1 * root, 0.1), Vec2::Zero()), "b"),
+                              target_of(billiard_ball(Vec2(0.1 * root, -0.1), Vec2::Zero()), "c")}),
+              1);
+  const TruthSnapshot truth = world.sample(0.9);
+  EXPECT_LT((truth.objects[0].velocity - Vec2(-1.0, 0.0)).norm(), 1e-6);
+  EXPECT_LT((truth.objects[1].velocity - Vec2(3.0, root)).norm(), 1e-6);
+  EXPECT_LT((truth.objects[2].velocity - Vec2(3.0, -root)).norm(), 1e-6);
+}
+
+// Derived: a ball that falls into the middle of a valley is thrown straight up with e times its
+// speed, by symmetry, however steep the sides are.
+TEST(Contact, ThrowsBackFromTheMiddleOfAValley) {
+  for (const double slope : {0.3, 1.0, 1.7, 3.0}) {
+    for (const double restitution : {1.0, 0.6}) {
+      ThrownBall ball = billiard_ball(Vec2(0.0, 1.5), Vec2::Zero());
+      ball.restitution = restitution;
+      WorldConfig config = world_of({target_of(ball)});
+      config.environment.ground = Ground{};
+      config.environment.ground->profile = {Vec2(-6.0, 6.0 * slope), Vec2(0.0, 0.0),
+                                            Vec2(6.0, 6.0 * slope)};
+      const double fall = 1.5 - 0.1 * std::sqrt(1.0 + slope * slope);
+      const double time = std::sqrt(2.0 * fall / kStandardGravity);
+      World world(config, 1);
+      const Vec2 velocity = state_at(world, time + 0.05).velocity;
+      EXPECT_NEAR(velocity.x(), 0.0, 1e-9) << slope;
+      EXPECT_NEAR(velocity.y(), kStandardGravity * (restitution * time - 0.05), 1e-6) << slope;
     }
   }
 }
