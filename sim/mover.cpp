@@ -107,6 +107,11 @@ FlightState* Mover::flight(State& state) const {
       model_);
 }
 
+TrainModel::State* Mover::train(State& state) const {
+  auto* const there = std::get_if<StateOf<TrainModel>>(&state);
+  return there != nullptr ? &there->state : nullptr;
+}
+
 FlightRate Mover::rate(const FlightState& state, const Environment& environment,
                        const SmoothInstant& now) const {
   return std::visit(

@@ -66,6 +66,10 @@ class Mover {
     return flight(const_cast<State&>(state));
   }
 
+  /// Its model and its state if it is a train; null otherwise, and where it is not there.
+  const TrainModel* train() const { return std::get_if<TrainModel>(&model_); }
+  TrainModel::State* train(State& state) const;
+
   /// What forces but those of contact do to it, and how fast they change.
   /// @pre flight() is not null
   FlightRate rate(const FlightState& state, const Environment& environment,

@@ -65,13 +65,15 @@ enum class EventKind {
   kCoupling,  // it was coupled to another
   kBurst,     // it burst
   kOverrun,   // it ran past the place where it should have stopped
+  kPassage,   // it passed through another, as trains do whose tracks cross
 };
 
-constexpr std::array<std::pair<std::string_view, EventKind>, 4> enum_names(EventKind) {
+constexpr std::array<std::pair<std::string_view, EventKind>, 5> enum_names(EventKind) {
   return {{{"contact", EventKind::kContact},
            {"coupling", EventKind::kCoupling},
            {"burst", EventKind::kBurst},
-           {"overrun", EventKind::kOverrun}}};
+           {"overrun", EventKind::kOverrun},
+           {"passage", EventKind::kPassage}}};
 }
 
 /// Something that has happened to an object.

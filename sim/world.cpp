@@ -13,7 +13,9 @@
 #include "sim/encounter.hpp"
 #include "sim/mover.hpp"
 #include "sim/neighbours.hpp"
+#include "sim/passages.hpp"
 #include "sim/random.hpp"
+#include "sim/regimes/railway.hpp"
 
 namespace ghtrack {
 namespace {
@@ -21,6 +23,7 @@ namespace {
 constexpr double kMargin = 0.02;   // around swept boxes [m]
 constexpr double kInstant = 1e-9;  // two instants closer than this are one [s]
 constexpr double kSpace = 0.1;     // beside what sweeps for several steps [m]
+constexpr double kLooksPerSecond = 15.0;  // for trains that pass through each other [Hz]
 constexpr double kRounding = 1e-9;  // of the distance between boxes [m]
 constexpr std::int64_t kLongestSpell = 16;
 
@@ -71,6 +74,10 @@ struct World::Scenery {
   std::vector<double> arrivals = {};       // when they appear, ascending [s]
   std::vector<Vec2> margins = {};          // around the centres of each target's parts [m]
   bool any_may_meet = false;
+  std::vector<std::size_t> trains = {};  // the indices of those targets
+  std::vector<Railway> railways = {};    // tracks that several share
+  std::vector<int> railway_of = {};      // of each target; −1: it shares none
+  PassageWatch passages = {};
   std::int64_t step = 0;               // the states hold at step / rate
   std::int64_t spell = kLongestSpell;  // steps to try at once
   std::int64_t single_steps = 0;       // to go before that is tried again
@@ -99,6 +106,11 @@ struct World::Scenery {
   void keep(Outcome&& outcome);
   Outcome advance(States& moved, const std::vector<std::size_t>& targets, double from, double to,
                   Parts* swept = nullptr) const;
+  TrainOnTrack train_on_track(States& at, std::size_t target) const;
+  void advance_trains(const Railway& railway, const States& before, States& moved, double from,
+                      double to, std::vector<WorldEvent>& told) const;
+  void watch_trains();
+  void lay_tracks();
   void add_events(std::size_t target, const ImpactLog& log, std::vector<WorldEvent>& events) const;
   void add_parts(const Mover::State& state, std::size_t target, Parts& parts) const;
   void sweep(const Mover::State& state, std::size_t target, std::size_t first, Parts& parts) const;
@@ -137,6 +149,11 @@ Mover::State World::Scenery::alone(const States& before, std::size_t target, dou
 /// Goes on by a step, or by several where few targets come close to each other.
 void World::Scenery::go_on(std::int64_t last) {
   std::int64_t steps = std::min(spell, last - step);
+  if (trains.size() > 1) {
+    const auto between_looks = static_cast<std::int64_t>(std::ceil(rate / kLooksPerSecond));
+    if (step % between_looks == 0) watch_trains();
+    steps = std::min(steps, between_looks - step % between_looks);
+  }
   const auto arrival = std::upper_bound(arrivals.begin(), arrivals.end(), time_of(step));
   while (steps > 1 && arrival != arrivals.end() && time_of(step + steps) >= *arrival) --steps;
   if (steps > 1 && single_steps == 0) {
@@ -178,9 +195,11 @@ bool World::Scenery::pass(std::int64_t steps) {
   States moved = states;
   Parts parts;
   std::vector<Vec2> places;  // of each part, before the first step and after each
+  std::vector<std::size_t> close;
   std::vector<std::pair<std::size_t, ImpactLog>> logs;
   ImpactLog log;
   for (const std::size_t i : everyone) {
+    if (railway_of[i] >= 0) close.push_back(i);
     const std::size_t first = parts.boxes.size();
     if (any_may_meet && is_there(moved[i], i, time_of(step))) add_parts(moved[i], i, parts);
     const std::size_t count = parts.boxes.size() - first;
@@ -214,7 +233,6 @@ bool World::Scenery::pass(std::int64_t steps) {
     }
     if (!log.empty()) logs.emplace_back(i, std::exchange(log, {}));
   }
-  std::vector<std::size_t> close;
   if (parts.any_yields && comes_close(parts, places, static_cast<std::size_t>(steps))) {
     for (const Cluster& cluster : neighbourhood.clusters(parts.boxes)) {
       const std::vector<std::size_t> targets = targets_of(cluster, parts);
@@ -273,12 +291,17 @@ World::Scenery::Outcome World::Scenery::advance(States& moved,
   for (const std::size_t i : targets) {
     if (carriers[i]) {
       moved[i] = alone(before, i, from, to, &log);
-    } else {
+    } else if (railway_of[i] < 0 || !is_there(moved[i], i, from)) {
       movers[i].advance(moved[i], environment, from, to, &log);
     }
     arrived = arrived || before[i].index() != moved[i].index();
     add_events(i, log, outcome.events);
     log.clear();
+  }
+  for (const Railway& railway : railways) {
+    // Of the trains of a track all are among the targets or none.
+    if (!std::binary_search(targets.begin(), targets.end(), railway.trains.front())) continue;
+    advance_trains(railway, before, moved, from, to, outcome.events);
   }
   if (from < to && any_may_meet) {
     Parts parts = parts_of(before, moved, targets, from);
@@ -289,6 +312,72 @@ World::Scenery::Outcome World::Scenery::advance(States& moved,
   if (arrived) outcome.displacements = place_arrivals(before, moved, to);
   std::stable_sort(outcome.events.begin(), outcome.events.end(), happens_before);
   return outcome;
+}
+
+TrainOnTrack World::Scenery::train_on_track(States& at, std::size_t target) const {
+  TrainOnTrack train{movers[target].train(), movers[target].train(at[target])};
+  train.number = static_cast<int>(target);
+  if (railway_of[target] < 0) return train;
+  const Railway& railway = railways[static_cast<std::size_t>(railway_of[target])];
+  const auto place = std::lower_bound(railway.trains.begin(), railway.trains.end(), target);
+  train.place = railway.places[static_cast<std::size_t>(place - railway.trains.begin())];
+  return train;
+}
+
+/// Those that were there before, together: the others have come by themselves.
+void World::Scenery::advance_trains(const Railway& railway, const States& before, States& moved,
+                                    double from, double to, std::vector<WorldEvent>& told) const {
+  std::vector<TrainOnTrack> there;
+  for (const std::size_t i : railway.trains) {
+    if (is_there(before[i], i, from)) there.push_back(train_on_track(moved, i));
+  }
+  std::vector<ImpactLog> logs(there.size());
+  for (std::size_t i = 0; i < there.size(); ++i) there[i].log = &logs[i];
+  std::vector<TrainCoupling> couplings;
+  advance_on_track(there, from, to, &couplings);
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    add_events(static_cast<std::size_t>(there[i].number), logs[i], told);
+  }
+  if (!record.events) return;
+  for (const TrainCoupling& coupling : couplings) {
+    told.push_back({coupling.time, EventKind::kCoupling,
+                    object_of(static_cast<std::size_t>(coupling.one), coupling.object),
+                    object_of(static_cast<std::size_t>(coupling.other), coupling.other_object), "",
+                    coupling.position, coupling.impulse});
+  }
+}
+
+/// Tells of trains that pass through each other.
+void World::Scenery::watch_trains() {
+  std::vector<TrainOnTrack> there;
+  std::vector<int> tracks;
+  for (const std::size_t i : trains) {
+    if (!is_there(states[i], i, time_of(step))) continue;
+    there.push_back(train_on_track(states, i));
+    // One that shares its track with none has a number of its own.
+    tracks.push_back(railway_of[i] < 0 ? -1 - static_cast<int>(i) : railway_of[i]);
+  }
+  for (const Passage& passage : passages.look(there, tracks)) {
+    const auto object = [&](std::size_t train, int car) {
+      return object_of(static_cast<std::size_t>(there[train].number), car);
+    };
+    events.push_back({time_of(step), EventKind::kPassage, object(passage.one, passage.car),
+                      object(passage.other, passage.other_car), "", passage.position});
+  }
+}
+
+/// Finds out who shares a track with whom.
+void World::Scenery::lay_tracks() {
+  std::vector<const TrainModel*> models;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    models.push_back(movers[i].train());
+    if (models.back() != nullptr) trains.push_back(i);
+  }
+  railways = find_railways(models);
+  railway_of.assign(movers.size(), -1);
+  for (std::size_t k = 0; k < railways.size(); ++k) {
+    for (const std::size_t i : railways[k].trains) railway_of[i] = static_cast<int>(k);
+  }
 }
 
 void World::Scenery::add_events(std::size_t target, const ImpactLog& log,
@@ -570,6 +659,7 @@ World::World(const WorldConfig& config, std::uint64_t seed)
   scenery.any_may_meet =
       parts > 1 && std::any_of(scenery.movers.begin(), scenery.movers.end(),
                                [](const Mover& mover) { return mover.may_yield(); });
+  scenery.lay_tracks();
   scenery.displacements =
       scenery.advance(scenery.states, scenery.everyone, 0.0, 0.0).displacements;
   const Scenery::States begun = scenery.states;

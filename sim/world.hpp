@@ -38,7 +38,8 @@ struct RecordConfig {
   static void describe(Visitor& v) {
     v.field("events", &RecordConfig::events,
             {.meaning = "events.csv: contacts with their impulses, couplings with the momentum that "
-                        "passes until both run at one speed, bursts, stops that were run past"});
+                        "passes until both run at one speed, bursts, stops that were run past, trains "
+                        "that passed through each other"});
     v.field("columns", &RecordConfig::columns,
             {.meaning = "more columns of truth.csv: heading [rad], spin [rad/s], wind_x and wind_y "
                         "at the object [m/s]",
@@ -110,7 +111,8 @@ class World {
   const std::vector<Displacement>& displacements() const;
 
   /// What has happened so far, in the order of time, up to the last whole step of the physics: all
-  /// of it if it is to be recorded, and in any case the stops that trains have run past.
+  /// of it if it is to be recorded, and in any case the stops that trains have run past and the
+  /// trains that have passed through each other.
   const std::vector<WorldEvent>& events() const;
 
  private:

@@ -9,6 +9,15 @@
 namespace ghtrack {
 namespace {
 
+constexpr double kSame = 1e-5;  // lines closer than this are one [m]
+
+Vec2 direction_of(double heading) {
+  const portable::SinCos direction = portable::sin_cos(heading);
+  return {direction.cos, direction.sin};
+}
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 }  // namespace
 
 // That of the chord of an arc, else Gauss–Legendre with five points on parts that turn by less than
@@ -103,6 +112,55 @@ TrackPoint RailLine::at(double arc_length) const {
 double RailLine::curvature(double arc_length) const {
   const Piece& piece = piece_at(arc_length);
   return piece.start.curvature + (arc_length - piece.begin) * piece.curvature_rate;
+}
+
+std::optional<std::pair<double, double>> RailLine::bends() const {
+  std::optional<std::pair<double, double>> bends;
+  for (const Piece& piece : pieces_) {
+    if (piece.start.curvature == 0.0 && piece.curvature_rate == 0.0) continue;
+    bends = {bends ? bends->first : piece.begin, piece.begin + piece.length};
+  }
+  return bends;
+}
+
+std::optional<PlaceOnLine> place_on(const RailLine& line, const RailLine& other) {
+  const auto bends = line.bends();
+  const auto others = other.bends();
+  if (bends.has_value() != others.has_value()) return std::nullopt;
+  if (!bends) {
+    const TrackPoint mine = line.at(0.0);
+    const TrackPoint there = other.at(0.0);
+    const Vec2 apart = mine.position - there.position;
+    const Vec2 along = direction_of(there.heading);
+    const Vec2 direction = direction_of(mine.heading);
+    if (std::abs(cross(along, apart)) > kSame) return std::nullopt;
+    if (std::abs(cross(along, direction)) > 1e-9) return std::nullopt;
+    return PlaceOnLine{along.dot(apart), along.dot(direction) > 0.0 ? 1.0 : -1.0};
+  }
+  const double length = bends->second - bends->first;
+  if (std::abs(length - (others->second - others->first)) > kSame) return std::nullopt;
+  for (const PlaceOnLine& place : {PlaceOnLine{others->first - bends->first, 1.0},
+                                   PlaceOnLine{others->second + bends->first, -1.0}}) {
+    // Beyond both ends, too.
+    constexpr int kParts = 64;
+    bool is_same = true;
+    for (int i = -1; i <= kParts + 1 && is_same; ++i) {
+      const double s = bends->first + length * i / kParts;
+      const Vec2 apart =
+          line.at(s).position - other.at(place.begin + place.direction * s).position;
+      is_same = apart.norm() <= kSame;
+    }
+    if (is_same) return place;
+  }
+  return std::nullopt;
+}
+
+double mark_of(const RailLine& line) {
+  if (const auto bends = line.bends()) {
+    return (line.at(bends->first).position + line.at(bends->second).position).sum();
+  }
+  const TrackPoint begin = line.at(0.0);
+  return std::abs(cross(direction_of(begin.heading), begin.position));
 }
 
 }  // namespace ghtrack

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -122,6 +123,9 @@ class RailLine {
 
   double length() const { return length_; }
 
+  /// Where its first bend begins and its last one ends [m]; none if it is straight throughout.
+  std::optional<std::pair<double, double>> bends() const;
+
  private:
   struct Piece {
     double begin;  // arc length [m]
@@ -136,5 +140,17 @@ class RailLine {
   std::vector<Piece> pieces_;  // the first and the last are the endless straights
   double length_ = 0.0;
 };
+
+/// How a line lies on another that is the same curve: its arc length s is begin + direction × s there.
+struct PlaceOnLine {
+  double begin = 0.0;      // [m]
+  double direction = 1.0;  // −1: they run against each other
+};
+
+/// Nothing if the two are not the same curve in the plane, from end to end.
+std::optional<PlaceOnLine> place_on(const RailLine& line, const RailLine& other);
+
+/// A number that is equal, but for rounding, for lines that are the same curve.
+double mark_of(const RailLine& line);
 
 }  // namespace ghtrack

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "sim/portable_math.hpp"
+#include "sim/regimes/railway.hpp"
 
 namespace ghtrack {
 namespace {
@@ -332,7 +333,8 @@ TrainModel::Effort TrainModel::possible_effort(const State& state, double time, 
 std::vector<double> TrainModel::accelerations(const State& state, double time,
                                               const std::vector<double>& directions) const {
   const std::size_t units = masses_.size();
-  if (state.drivers[0].phase < 0 && meetings_.empty() && !train_.buffer_stop) {
+  if (state.drivers[0].phase < 0 && meetings_.empty() && !train_.buffer_stop &&
+      state.pushes.empty()) {
     return std::vector<double>(units, 0.0);
   }
   std::vector<double> active(units, 0.0);
@@ -359,6 +361,7 @@ std::vector<double> TrainModel::accelerations(const State& state, double time,
   }
   if (train_.couplers) add_coupler_forces(state, active);
   add_forces_ahead(state, active);
+  for (std::size_t i = 0; i < state.pushes.size(); ++i) active[i] += state.pushes[i];
 
   std::vector<double> result(units);
   for (std::size_t group = 0; group < groups_.size(); ++group) {
@@ -472,89 +475,29 @@ void TrainModel::join(State& state, double time, ImpactLog* log) const {
   }
 }
 
-TrainModel::State TrainModel::moved(const State& state, double time, double step) const {
-  const auto shifted = [&](const std::vector<double>& speed, const std::vector<double>& rate,
-                           double h) {
-    State next = state;
-    for (std::size_t i = 0; i < rate.size(); ++i) {
-      next.place[i] += h * speed[i];
-      next.speed[i] += h * rate[i];
-    }
-    return next;
-  };
-  // Friction keeps its direction during the step: the equations stay smooth up to the instant of
-  // standing still, where the step will be cut.
-  const std::vector<double> directions = directions_of(state);
-  const std::vector<double> k1 = accelerations(state, time, directions);
-  const State s2 = shifted(state.speed, k1, 0.5 * step);
-  const std::vector<double> k2 = accelerations(s2, time + 0.5 * step, directions);
-  const State s3 = shifted(s2.speed, k2, 0.5 * step);
-  const std::vector<double> k3 = accelerations(s3, time + 0.5 * step, directions);
-  const State s4 = shifted(s3.speed, k3, step);
-  const std::vector<double> k4 = accelerations(s4, time + step, directions);
-  State next = state;
-  for (std::size_t i = 0; i < k1.size(); ++i) {
-    next.place[i] +=
-        step / 6.0 * (state.speed[i] + 2.0 * s2.speed[i] + 2.0 * s3.speed[i] + s4.speed[i]);
-    next.speed[i] += step / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+/// Whether buffers touch or part between two states.
+bool TrainModel::touches_or_parts(const State& before, const State& after) const {
+  for (std::size_t i = 0; i < meetings_.size(); ++i) {
+    if (before.joined[i]) continue;
+    if ((gap(before, meetings_[i]) > 0.0) != (gap(after, meetings_[i]) > 0.0)) return true;
   }
-  return next;
+  return train_.buffer_stop && (pressed(before) > 0.0) != (pressed(after) > 0.0);
 }
 
 void TrainModel::advance(State& state, const Environment&, double from, double to,
                          ImpactLog* log) const {
-  double time = from;
-  while (time < to) {
-    join(state, time, log);
-    std::vector<bool> had_overrun;
-    for (std::size_t group = 0; group < groups_.size(); ++group) {
-      had_overrun.push_back(has_overrun(state, group));
-    }
-    decide(state, time);
-    const double end = std::min({to, next_kink(state, time), time + longest_step(state)});
-    State next = moved(state, time, end - time);
-    // Where a car comes to a stand, the first reaches the place of the next phase, or buffers
-    // touch or part, the equations change: the step ends there.
-    double step = end - time;
-    const auto event = [&](const State& s) {
-      for (std::size_t i = 0; i < meetings_.size(); ++i) {
-        if (state.joined[i]) continue;
-        if ((gap(state, meetings_[i]) > 0.0) != (gap(s, meetings_[i]) > 0.0)) return true;
-      }
-      if (train_.buffer_stop && (pressed(state) > 0.0) != (pressed(s) > 0.0)) return true;
-      for (std::size_t group = 0; group < groups_.size(); ++group) {
-        if (reached_next_phase(s, group)) return true;
-      }
-      return s.speed[0] * state.speed[0] < 0.0 && masses_.size() == 1;
-    };
-    if (event(next)) {
-      double before = 0.0;
-      double after = step;
-      while (after - before > 1e-9) {
-        const double middle = 0.5 * (before + after);
-        (event(moved(state, time, middle)) ? after : before) = middle;
-      }
-      step = after;
-      next = moved(state, time, step);
-    }
-    for (std::size_t i = 0; i < masses_.size(); ++i) {
-      if (next.speed[i] * state.speed[i] >= 0.0) continue;
-      State standing = next;
-      standing.speed[i] = 0.0;
-      if (masses_.size() == 1 ||
-          accelerations(standing, time + step, directions_of(standing))[i] == 0.0)
-        next = standing;
-    }
-    state = next;
-    time = step == end - time ? end : time + step;
-    for (std::size_t group = 0; group < groups_.size() && log != nullptr; ++group) {
-      if (had_overrun[group] || !has_overrun(state, group)) continue;
-      const std::size_t first = groups_[group].begin;
-      const bool is_seen = group == 0 || train_.track_every_car;
-      log->push_back({time, -1, track_.at(state.place[first]).position, Vec2::Zero(),
-                      EventKind::kOverrun, is_seen ? static_cast<int>(first) : 0});
-    }
-  }
+  const TrainOnTrack alone{this, &state, log};
+  advance_on_track({&alone, 1}, from, to);
+}
+
+TrainModel::End TrainModel::front(const State& state) const {
+  return {front_, static_cast<int>(front_), state.place[front_] + 0.5 * train_.car_length, state.speed[front_]};
+}
+
+TrainModel::End TrainModel::rear(const State& state) const {
+  const std::size_t last = groups_[0].end - 1;
+  const int car = train_.cars - 1;
+  return {last, car, place_of(state, car) - 0.5 * train_.car_length, state.speed[last]};
 }
 
 double TrainModel::place_of(const State& state, int car) const {

@@ -232,6 +232,7 @@ struct Train {
   double emergency_brake_build_up = 1.5;
   bool holding_brake = false;
   std::optional<Couplers> couplers;
+  bool couples = true;
   std::vector<Grade> grades;
   std::vector<SchematicCurve> schematic_curves;
   std::optional<double> brake_pipe_speed;
@@ -268,7 +269,7 @@ struct Train {
     v.field("speed", &Train::speed,
             {.unit = "m/s",
              .meaning = "at the start, kept exactly until the first drive phase; with cars `ahead` or "
-                        "a buffer stop it coasts until then",
+                        "a buffer stop, or once it has met another train, it coasts until then",
              .minimum = -150.0,
              .maximum = 150.0});
     v.field("drive", &Train::drive,
@@ -333,6 +334,9 @@ struct Train {
     v.field("holding_brake", &Train::holding_brake,
             {.meaning = "once it stands, it does not roll down a slope: only traction moves it"});
     v.field("couplers", &Train::couplers, {.meaning = "springs between the cars; left out: rigid"});
+    v.field("couples", &Train::couples,
+            {.meaning = "couples to a train, another target, that it meets where their tracks are "
+                        "one and the same, if that does so too; otherwise they only buffer"});
     v.field("grades", &Train::grades, {.meaning = "gradients by place", .max_items = 10000});
     v.field("schematic_curves", &Train::schematic_curves,
             {.meaning = "curve resistance where the track is drawn straight", .max_items = 10000});
@@ -402,6 +406,12 @@ class TrainModel {
     bool stopping = false;     // has begun to brake for a station
   };
 
+  /// Another train that touches this one where its arc length, on their common track, grows.
+  struct Neighbour {
+    int number = 0;  // of its target
+    bool coupled = false;
+  };
+
   /// Along the track, per car that moves by itself: one if the couplers are rigid; then the cars of
   /// the groups ahead, the foremost of each first.
   struct State {
@@ -409,6 +419,16 @@ class TrainModel {
     std::vector<double> speed;  // [m/s]
     std::vector<Driver> drivers;  // of the train, and of each group ahead
     std::vector<bool> joined;   // of each place where groups of cars meet: they are coupled
+    std::vector<Neighbour> neighbours = {};
+    std::vector<double> pushes = {};  // of other trains [N]; none before the first touch
+  };
+
+  /// Where it may touch another train: the front of its foremost car or the rear of its last.
+  struct End {
+    std::size_t unit = 0;
+    int car = 0;
+    double place = 0.0;  // [m]
+    double speed = 0.0;  // [m/s]
   };
 
   explicit TrainModel(const Train& train);
@@ -427,7 +447,13 @@ class TrainModel {
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
 
+  const RailLine& track() const { return track_; }
+  End front(const State& state) const;
+  End rear(const State& state) const;
+
  private:
+  friend class TrackMotion;  // integrates the trains of one track together
+
   /// Units that were coupled from the start, the foremost first: the train, then what is ahead.
   struct Group {
     std::size_t begin = 0;
@@ -465,6 +491,7 @@ class TrainModel {
   void decide(State& state, double time, std::size_t group) const;
   double next_kink(const State& state, double time) const;
   double next_kink(const State& state, double time, std::size_t group) const;
+  bool touches_or_parts(const State& before, const State& after) const;
   double longest_step(const State& state) const;
   double build_up(const Brake& brake) const;
   double traction_limit(double speed) const;
@@ -488,7 +515,6 @@ class TrainModel {
   std::vector<double> accelerations(const State& state, double time,
                                     const std::vector<double>& directions) const;
   static std::vector<double> directions_of(const State& state);
-  State moved(const State& state, double time, double step) const;
   double place_of(const State& state, int car) const;
   static double hindered(double active, double passive, double direction, double inertia);
 

@@ -14,6 +14,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/passages.hpp"
 #include "tools/cli/page_file.hpp"
 #include "tools/cli/panels.hpp"
 #include "tools/cli/run_series.hpp"
@@ -72,6 +73,14 @@ void warn_of_overruns(const TruthSource& truth) {
         "ghtrack: warning: '{}' ran past its stop at {:.6g} s: it began to brake too late, or its "
         "brakes are too weak",
         truth.objects().at(static_cast<std::size_t>(event.object)).name, event.time);
+  }
+}
+
+void warn_of_passages(const TruthSource& truth) {
+  for (const WorldEvent& event : truth.events()) {
+    if (event.kind == EventKind::kPassage) {
+      tell("ghtrack: warning: {}", told_of_passage(event, truth.objects()));
+    }
   }
 }
 
@@ -161,6 +170,7 @@ void run_world(const WorldScene& scene, ResultFolder& results, const RunOptions&
   if (!manners.quiet) warn_of_missed_collisions(truth, scene);
   if (!manners.quiet) warn_of_displacements(truth);
   if (!manners.quiet) warn_of_overruns(truth);
+  if (!manners.quiet) warn_of_passages(truth);
   print(to_table(report, terminal_width()));
 }
 

@@ -7,6 +7,7 @@
 #include "scenes/schema/writer.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/messages.hpp"
+#include "tools/cli/passages.hpp"
 #include "tools/cli/scene_source.hpp"
 
 namespace ghtrack::cli {
@@ -32,6 +33,14 @@ void warn_of_fixed_gains(const std::string& file, const Scene& scene) {
   }
 }
 
+void warn_of_passages(const std::string& file, const Scene& scene) {
+  const auto* world = std::get_if<WorldScene>(&scene);
+  if (world == nullptr) return;
+  for (const std::string& passage : foreseen_passages(*world)) {
+    tell("{}: warning: targets: {}", file, passage);
+  }
+}
+
 }  // namespace
 
 int check(const SceneOptions& options, const Manners& manners) {
@@ -42,6 +51,7 @@ int check(const SceneOptions& options, const Manners& manners) {
       if (manners.quiet) continue;
       print(printable(file) + ": ok\n");
       warn_of_fixed_gains(file, scene);
+      warn_of_passages(file, scene);
     } catch (const SceneError& error) {
       found.insert(found.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
