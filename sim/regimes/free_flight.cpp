@@ -310,6 +310,10 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
     const double rest_speed =
         std::max(kLeastBounce, std::sqrt(2.0 * kRestHeight * std::max(0.0, pressing)));
     if (departure >= rest_speed || !(pressing > 0.0)) return;
+    // In a corner keep_out() would let it hop.
+    if (state.support >= 0) {
+      state.velocity -= std::max(0.0, state.velocity.dot(contact.normal)) * contact.normal;
+    }
     add_support(state, static_cast<int>(index), surfaces);
     keep_out(state, surfaces);
   };

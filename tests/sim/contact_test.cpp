@@ -151,6 +151,25 @@ TEST(Contact, ThrowsBackFromTheMiddleOfAValley) {
   }
 }
 
+// Derived: a smooth ball in a valley of slope θ comes to rest: whenever it changes sides more slowly
+// than bodies bounce, its speed falls to the part |cos 2θ|, and the time between with it.
+TEST(Contact, EndsToAndFroInTheMiddleOfAValley) {
+  for (const double slope : {0.3, 1.0, 1.7, 3.0}) {
+    ThrownBall ball = billiard_ball(Vec2(0.0, 2.0), Vec2::Zero());
+    ball.radius = 0.05;
+    ball.restitution = 0.6;
+    WorldConfig config = world_of({target_of(ball)});
+    config.environment.air.density = 0.0;
+    config.environment.ground = Ground{};
+    config.environment.ground->profile = {Vec2(-6.0, 6.0 * slope), Vec2(0.0, 0.0),
+                                          Vec2(6.0, 6.0 * slope)};
+    World world(config, 1);
+    const TruthState state = state_at(world, 60.0);
+    EXPECT_EQ(state.velocity, Vec2::Zero()) << slope;
+    EXPECT_NEAR(state.position.x(), 0.0, 1e-6) << slope;
+  }
+}
+
 // Property: a ball that lies on another, on a train or in a corner lies still: no velocity and no
 // acceleration, and it does not sink.
 TEST(Contact, IsAtRestWithoutVelocityOrAcceleration) {
