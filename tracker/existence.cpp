@@ -24,9 +24,12 @@ double surveyed_area(const SensorTraits& sensor, double otherwise) {
   return std::isfinite(shape) ? shape : otherwise;
 }
 
+/// What is known counts as it is, however small beside the error of a detection: of a fast target's
+/// first steps nothing but the density of false detections tells whether they are its own.
 double clutter_density(const SensorTraits& sensor, double area) {
-  const double few = kFewFalseDetections / (2.0 * std::numbers::pi * sensor.sigma * sensor.sigma);
-  return std::max(few, sensor.clutter / surveyed_area(sensor, area));
+  const double known = sensor.clutter / surveyed_area(sensor, area);
+  if (known > 0.0) return known;
+  return kFewFalseDetections / (2.0 * std::numbers::pi * sensor.sigma * sensor.sigma);
 }
 
 }  // namespace

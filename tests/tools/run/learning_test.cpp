@@ -62,6 +62,27 @@ INSTANTIATE_TEST_SUITE_P(UpToRounding, Units,
                          ::testing::Values(std::tuple(1000.0, 0.04, 1e-3),
                                            std::tuple(1e-5, 3600.0, 1e-3)));
 
+class Speeds : public ::testing::TestWithParam<double> {};
+
+// Property: a target is one track however far it goes from scan to scan, beside its noise: ships and
+// aircraft whose positions are as good as exact.
+TEST_P(Speeds, AreFollowedWithOneTrackEach) {
+  const LearningScene scene{.targets = 2,
+                            .noise_x = 5.0 / GetParam(),
+                            .noise_y = 5.0 / GetParam(),
+                            .process_density = 0.0,
+                            .detection_probability = 1.0,
+                            .clutter = 0.0,
+                            .side = 4000.0};
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const LearnedTracker learned = learn_offline({}, recorded(scene.record(seed))).learned;
+    EXPECT_EQ(learned.tracks, scene.targets) << seed;
+    EXPECT_GT(learned.explained, 0.95) << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BesideTheNoise, Speeds, ::testing::Values(2.0, 20.0, 200.0, 2e3, 2e4, 1e6));
+
 // Property: what is learned leaves nothing open, and learning again from it changes nothing.
 TEST(LearnedConfig, SaysAllThatThereIsToSay) {
   const std::vector<Scan> scans = LearningScene{}.record(2);
