@@ -168,9 +168,11 @@ TEST(OwnData, IsDescribedByOptionsOrByAFile) {
 TEST(OwnData, SaysWhatIsMissing) {
   const TemporaryFolder folder;
   std::string nothing = "t,x,y\n", cut = "t,x,y\n";
+  std::mt19937 random(1);
   for (int k = 0; k < 100; ++k) {
-    nothing += std::to_string(k) + "," + std::to_string((k * 7919) % 1009) + "," +
-               std::to_string((k * 104729) % 997) + "\n";
+    const auto x = random() % 1000;
+    const auto y = random() % 1000;
+    nothing += std::to_string(k) + "," + std::to_string(x) + "," + std::to_string(y) + "\n";
     cut += std::to_string(k / 10) + "," + std::to_string(3.0 * k + (k * 31) % 7 * 0.1) + "," +
            std::to_string(0.5 * k) + "\n";
   }
