@@ -205,7 +205,7 @@ class RunMetrics final : public RunObserver {
 
   /// What is there at an instant.
   struct Instant {
-    double time = 0.0;
+    double time;
     std::vector<std::int64_t> truth_ids, track_ids;
     std::vector<Vec2> truth, tracks;
   };

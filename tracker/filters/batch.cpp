@@ -10,8 +10,9 @@
 
 // One copy of each kernel per instruction set, chosen by the loader. No copy may fuse a
 // multiplication with an addition: -ffp-contract=off keeps the bits alike. 512-bit vectors are
-// left out: they slow the core down for everything else.
-#if defined(__x86_64__) && defined(__gnu_linux__)
+// left out: they slow the core down for everything else. The loader chooses before ThreadSanitizer
+// has started, whose calls GCC puts into the choice: with it there is one copy.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_THREAD__)
 #define GHTRACK_FOR_EACH_CPU __attribute__((target_clones("avx2", "default")))
 #else
 #define GHTRACK_FOR_EACH_CPU
