@@ -305,22 +305,18 @@ class Encounter {
                                    const std::vector<std::pair<double, Pair>>& closing) const {
     std::vector<Pair> struck{closing.front().second};
     std::vector<bool> involved(yielding_.size(), false);
-    const auto involve = [&](const Pair& pair) {
-      involved[at(pair.one)] = true;
-      if (pair.kind == Partner::kRound) involved[at(pair.other)] = true;
-    };
     const auto gives_way = [&](const Pair& pair) {
       return pair.kind != Partner::kRound || flight(now, pair.other) != nullptr;
     };
     if (!gives_way(struck.front())) return struck;
-    involve(struck.front());
+    involve(struck.front(), involved);
     for (std::size_t i = 1; i < closing.size(); ++i) {
       const auto& [speed, pair] = closing[i];
       if (speed < (1.0 - kSameSpeed) * closing.front().first) break;
       const bool shares = involved[at(pair.one)] ||
                           (pair.kind == Partner::kRound && involved[at(pair.other)]);
       if (!shares || !gives_way(pair) || !bounces(now, pair, speed)) continue;
-      involve(pair);
+      involve(pair, involved);
       struck.push_back(pair);
     }
     return struck;
@@ -453,7 +449,7 @@ class Encounter {
 
   /// All that touches and moves against each other at no more than this speed.
   Heap touching(const Instant& now, double speed) const {
-    Heap heap;
+    std::vector<Pair> touching;
     std::vector<bool> involved(yielding_.size(), false);
     const auto touches = [&](const Pair& pair) {
       const Gap there = gap(now, pair);
@@ -463,42 +459,37 @@ class Encounter {
     };
     for (const Pair& pair : pairs_) {
       if (!touches(pair)) continue;
-      heap.pairs.push_back(pair);
-      involved[at(pair.one)] = true;
-      if (pair.kind == Partner::kRound) involved[at(pair.other)] = true;
+      touching.push_back(pair);
+      involve(pair, involved);
     }
     const bool all = speed == std::numeric_limits<double>::infinity();
     for (const Pair& pair : surface_pairs_) {
       if (!(all || involved[at(pair.one)]) || !touches(pair)) continue;
-      heap.pairs.push_back(pair);
-      involved[at(pair.one)] = true;
+      touching.push_back(pair);
     }
-    take_in(now, involved, heap);
-    return heap;
+    return heap_of(now, std::move(touching));
   }
 
-  Heap heap_of(const Instant& now, const std::vector<Pair>& pairs) const {
+  static void involve(const Pair& pair, std::vector<bool>& involved) {
+    involved[at(pair.one)] = true;
+    if (pair.kind == Partner::kRound) involved[at(pair.other)] = true;
+  }
+
+  /// These pairs and their bodies.
+  Heap heap_of(const Instant& now, std::vector<Pair> pairs) const {
     Heap heap;
-    heap.pairs = pairs;
-    std::vector<bool> involved(yielding_.size(), false);
-    for (const Pair& pair : pairs) {
-      involved[at(pair.one)] = true;
-      if (pair.kind == Partner::kRound) involved[at(pair.other)] = true;
-    }
-    take_in(now, involved, heap);
-    return heap;
-  }
-
-  /// Gives a heap of pairs its bodies.
-  void take_in(const Instant& now, const std::vector<bool>& involved, Heap& heap) const {
+    heap.pairs = std::move(pairs);
+    heap.touches.resize(heap.pairs.size());
     heap.place.assign(yielding_.size(), -1);
+    std::vector<bool> involved(yielding_.size(), false);
+    for (const Pair& pair : heap.pairs) involve(pair, involved);
     for (int i = 0; i < static_cast<int>(yielding_.size()); ++i) {
       if (!involved[at(i)]) continue;
       heap.place[at(i)] = static_cast<int>(heap.bodies.size());
       heap.bodies.push_back(i);
       heap.turning.push_back(portable::sign(flight(now, i)->spin));
     }
-    heap.touches.resize(heap.pairs.size());
+    return heap;
   }
 
   /// Those that forces press together or that come back to each other again and again, with all that

@@ -15,18 +15,6 @@
 namespace ghtrack {
 namespace {
 
-/// A rigid train of cars of 10 m that nothing holds back.
-Train rigid_train(int cars, double mass, double start, double speed) {
-  Train train = single_car(start, speed);
-  train.cars = cars;
-  train.car_length = 10.0;
-  train.mass = mass;
-  train.rotating_mass = 1.0;
-  train.davis_a = train.davis_b = train.davis_c = 0.0;
-  train.curve_resistance = 0.0;
-  return train;
-}
-
 /// The same track, described from its other end.
 Train turned_round(Train train, const Vec2& end, double heading_deg) {
   train.position = end;
@@ -40,20 +28,12 @@ Train turned_round(Train train, const Vec2& end, double heading_deg) {
   return train;
 }
 
-double kinetic_energy(const TruthSnapshot& truth, const std::vector<double>& masses) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    sum += 0.5 * masses[i] * truth.objects[i].velocity.squaredNorm();
-  }
-  return sum;
-}
-
 // Derived: two targets on one track couple as cars `ahead` do: with m₁ v₁ + m₂ v₂ = (m₁ + m₂) v, and
 // their springs take ½ (v₁ − v₂)² m₁ m₂ / (m₁ + m₂). The front of the one, at 15 m, meets the rear of
 // the other, at 55 m, after 40 m / (v₁ − v₂).
 TEST(Railway, CouplesTargetsByMomentum) {
-  WorldConfig config = world_of({target_of(rigid_train(2, 100e3, 10.0, 3.0), "one"),
-                                 target_of(rigid_train(3, 60e3, 80.0, 1.0), "other")});
+  WorldConfig config = world_of({target_of(free_cars(2, 100e3, 10.0, 3.0), "one"),
+                                 target_of(free_cars(3, 60e3, 80.0, 1.0), "other")});
   config.record.events = true;
   World world(config, 1);
   const std::vector<double> masses{100e3, 60e3};
@@ -75,10 +55,10 @@ TEST(Railway, CouplesTargetsByMomentum) {
 // + m₂), after a contact of π √(μ/k) with μ = m₁ m₂/(m₁ + m₂); the two are driven at each other, each
 // on the track as seen from its own end.
 TEST(Railway, BuffersElasticallyHeadOn) {
-  Train one = rigid_train(1, 60e3, 0.0, 1.5);
+  Train one = free_cars(1, 60e3, 0.0, 1.5);
   one.couplers = Couplers{1e7, 0.0, 0.0};
   one.couples = false;
-  Train other = rigid_train(1, 20e3, 0.0, 0.5);
+  Train other = free_cars(1, 20e3, 0.0, 0.5);
   other.couplers = one.couplers;
   other.position = Vec2(30.0, 0.0);
   other.heading_deg = 180.0;
@@ -98,7 +78,7 @@ TEST(Railway, BuffersElasticallyHeadOn) {
 // Derived: on a curve, too, whichever end the track is described from, momentum along it decides, and
 // cars keep their distance along it.
 TEST(Railway, MeetsOnACurveDescribedFromEitherEnd) {
-  Train one = rigid_train(1, 100e3, 60.0, 2.0);
+  Train one = free_cars(1, 100e3, 60.0, 2.0);
   one.track = {Straight{100.0}, Curve{150.0, 60.0, {}, 40.0},
                Straight{100.0}};
   const RailLine line(one.track, one.position, 0.0);
@@ -138,7 +118,7 @@ TEST(Railway, KeepsMomentumAndOrder) {
       const double mass = 20e3 * cars * std::exp(2.0 * stream.uniform());
       const double speed = 20.0 * (stream.uniform() - 0.5);
       place += 10.0 * cars + 30.0 * stream.uniform();
-      Train train = rigid_train(cars, mass, place, speed);
+      Train train = free_cars(cars, mass, place, speed);
       train.track_every_car = true;
       if (stream.uniform() < 0.4) train.couplers = Couplers{1e7, 3e5, 0.01};
       train.couples = stream.uniform() < 0.6;
@@ -176,7 +156,7 @@ TEST(Railway, KeepsMomentumAndOrder) {
 
 // Property: trains on one track that do not meet move as each does alone, to the last bit.
 TEST(Railway, LeavesAloneWhoMeetsNobody) {
-  Train one = rigid_train(2, 100e3, 0.0, 12.0);
+  Train one = free_cars(2, 100e3, 0.0, 12.0);
   one.davis_a = 1e3;
   one.drive = {phase_at(2.0, Brake{}), phase_at(9.0, Accelerate{0.3})};
   Train other = one;
@@ -205,7 +185,7 @@ std::vector<WorldEvent> passages(const WorldConfig& config, double duration) {
 // fronts come to it after 195 m / 20 m/s = 9.75 s. With the one delayed by its length and more, or on
 // tracks side by side, nobody does.
 TEST(Railway, TellsOfTrainsWhoseTracksCross) {
-  const Train one = rigid_train(2, 100e3, 0.0, 20.0);
+  const Train one = free_cars(2, 100e3, 0.0, 20.0);
   Train crossing = one;
   crossing.position = Vec2(200.0, -200.0);
   crossing.heading_deg = 90.0;
@@ -226,7 +206,7 @@ TEST(Railway, TellsOfTrainsWhoseTracksCross) {
 // Property: tracks that are one in part only are told of, and so are trains that begin inside each
 // other; these run on as if alone, and meet what they meet from outside.
 TEST(Railway, TellsOfTracksThatAreOneInPartAndOfTrainsInsideEachOther) {
-  Train one = rigid_train(2, 100e3, 0.0, 20.0);
+  Train one = free_cars(2, 100e3, 0.0, 20.0);
   Train other = one;
   other.start = 100.0;
   other.speed = 0.0;

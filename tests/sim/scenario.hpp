@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,28 @@ inline Train single_car(double start, double speed, std::vector<DrivePhase> driv
   train.speed = speed;
   train.drive = std::move(drive);
   return train;
+}
+
+/// Cars of 10 m that nothing holds back.
+inline Train free_cars(int cars, double mass, double start, double speed,
+                       std::vector<DrivePhase> drive = {}) {
+  Train train = single_car(start, speed, std::move(drive));
+  train.cars = cars;
+  train.car_length = 10.0;
+  train.mass = mass;
+  train.rotating_mass = 1.0;
+  train.davis_a = train.davis_b = train.davis_c = 0.0;
+  train.curve_resistance = 0.0;
+  return train;
+}
+
+/// Of the first objects, which have these masses.
+inline double kinetic_energy(const TruthSnapshot& truth, const std::vector<double>& masses) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    sum += 0.5 * masses[i] * truth.objects[i].velocity.squaredNorm();
+  }
+  return sum;
 }
 
 inline DrivePhase phase_at(double time, DriveCommand command) {

@@ -13,26 +13,12 @@
 namespace ghtrack {
 namespace {
 
-/// Cars of 10 m that nothing holds back.
+/// Sprung cars that nothing holds back, each an object of its own.
 Train free_train(int cars, double mass, double speed, std::vector<DrivePhase> drive = {}) {
-  Train train = single_car(0.0, speed, std::move(drive));
-  train.cars = cars;
-  train.car_length = 10.0;
-  train.mass = mass;
-  train.rotating_mass = 1.0;
-  train.davis_a = train.davis_b = train.davis_c = 0.0;
-  train.curve_resistance = 0.0;
+  Train train = free_cars(cars, mass, 0.0, speed, std::move(drive));
   train.track_every_car = true;
   train.couplers = Couplers{1e7, 0.0, 0.0};
   return train;
-}
-
-double energy(const TruthSnapshot& truth, const std::vector<double>& masses) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    sum += 0.5 * masses[i] * truth.objects[i].velocity.squaredNorm();
-  }
-  return sum;
 }
 
 // Derived: cars that couple go on together with m₁ v / (m₁ + m₂), and their springs have taken
@@ -45,12 +31,12 @@ TEST(Shunting, CouplesByMomentum) {
   config.record.events = true;
   World world(config, 1);
   const std::vector<double> masses{50e3, 50e3, 20e3, 20e3, 20e3};
-  const double begun = energy(world.sample(0.0), masses);
+  const double begun = kinetic_energy(world.sample(0.0), masses);
   const TruthSnapshot truth = world.sample(40.0);
   ASSERT_EQ(truth.objects.size(), 5u);
   const double common = 100.0 * 2.0 / 160.0;
   for (const TruthState& car : truth.objects) EXPECT_NEAR(car.velocity.x(), common, 1e-4);
-  EXPECT_NEAR(begun - energy(truth, masses), 0.5 * 4.0 * 100e3 * 60e3 / 160e3, 50.0);
+  EXPECT_NEAR(begun - kinetic_energy(truth, masses), 0.5 * 4.0 * 100e3 * 60e3 / 160e3, 50.0);
   ASSERT_EQ(world.events().size(), 1u);
   EXPECT_EQ(world.events()[0].kind, EventKind::kCoupling);
   EXPECT_NEAR(world.events()[0].time, 10.0, 1e-6);

@@ -12,7 +12,7 @@ namespace ghtrack::cli {
 /// @param event  of that kind
 std::string told_of_passage(const WorldEvent& event, const std::vector<ObjectInfo>& objects);
 
-/// What he would be told of in a run of a scene, found out by its trains alone.
+/// What the user of a scene would be told of in a run, found out by its trains alone.
 std::vector<std::string> foreseen_passages(const WorldScene& scene);
 
 }  // namespace ghtrack::cli
