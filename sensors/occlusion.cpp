@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "sim/portable_math.hpp"
+#include "sim/plane.hpp"
 
 namespace ghtrack {
 namespace {
@@ -25,8 +25,7 @@ class Shape {
         is_box_(outline.shape == Outline::Shape::kBox),
         half_(0.5 * Vec2(outline.length, is_box_ ? outline.width : outline.length)) {
     if (!is_box_) return;
-    const portable::SinCos turn = portable::sin_cos(body.angle);
-    along_ = {turn.cos, turn.sin};
+    along_ = direction(body.angle);
   }
 
   double reach() const { return is_box_ ? half_.norm() : half_.x(); }
@@ -41,7 +40,7 @@ class Shape {
   /// Points spread evenly over the shape.
   std::vector<Vec2> points() const {
     std::vector<Vec2> points;
-    const Vec2 across(-along_.y(), along_.x());
+    const Vec2 across = left_of(along_);
     for (int i = 1; i <= kPoints; ++i) {
       const double x = half_.x() * (2.0 * fraction(i * kPlastic) - 1.0);
       const double y = half_.y() * (2.0 * fraction(i * kPlastic * kPlastic) - 1.0);
@@ -53,7 +52,7 @@ class Shape {
 
  private:
   Vec2 to_local(const Vec2& offset) const {
-    return {offset.dot(along_), along_.x() * offset.y() - along_.y() * offset.x()};
+    return {offset.dot(along_), cross(along_, offset)};
   }
 
   Vec2 centre_;

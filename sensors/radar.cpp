@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sensors/view_geometry.hpp"
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
@@ -26,7 +27,7 @@ Detection to_cartesian(const PolarMeasurement& measured, const PolarNoise& noise
       r2 * (1.0 / (lambda * lambda) - 1.5 + 0.5 * lambda4) + 0.5 * variance * (1.0 + lambda4);
   const double across = 0.5 * (r2 + variance) * (1.0 - lambda4);
   const Vec2& u = measured.direction;
-  const Vec2 v(-u.y(), u.x());
+  const Vec2 v = left_of(u);
 
   Detection detection;
   detection.position = measured.range / lambda * u;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 #include "sim/random.hpp"
 #include "sim/turbulence.hpp"
@@ -26,7 +27,7 @@ CarriedGusts::CarriedGusts(std::vector<GustAxis> axes, const Vec2& mean_wind, st
 
 Vec2 CarriedGusts::at(const Vec2& position, double time) {
   const double passed = std::max(0.0, time + (kReach - along_.dot(position)) / speed_);
-  const double across = along_.x() * position.y() - along_.y() * position.x();
+  const double across = cross(along_, position);
   const double knot = std::floor(passed * GustProcess::kKnotsPerSecond);
   const double fraction = passed * GustProcess::kKnotsPerSecond - knot;
   const auto index = static_cast<std::int64_t>(knot) >> GustProcess::kLevels;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/contact_forces.hpp"
+#include "sim/plane.hpp"
 
 namespace ghtrack {
 namespace {
@@ -164,7 +165,7 @@ class Encounter {
     const Contact contact = contact_with_outline(one.position, body.position, body.angle, outline);
     const Vec2 arm = apart - contact.distance * contact.normal;
     return {contact.normal, contact.distance - radius, contact.curvature,
-            body.velocity + body.spin * Vec2(-arm.y(), arm.x()), passer.acceleration};
+            body.velocity + body.spin * left_of(arm), passer.acceleration};
   }
 
   Gap gap(const RigidBody& one, const RigidBody& other_round, const Pair& pair,

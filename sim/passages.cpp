@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "sim/portable_math.hpp"
+#include "sim/plane.hpp"
 
 namespace ghtrack {
 namespace {
@@ -17,8 +17,7 @@ struct Axis {
 };
 
 Axis axis_of(const RigidBody& car, double length) {
-  const portable::SinCos heading = portable::sin_cos(car.angle);
-  const Vec2 half = 0.5 * length * Vec2(heading.cos, heading.sin);
+  const Vec2 half = 0.5 * length * direction(car.angle);
   return {car.position - half, car.position + half};
 }
 
@@ -37,17 +36,15 @@ double distance(const Vec2& point, const Axis& axis) {
   return (point - axis.rear - part * along).norm();
 }
 
-bool cross(const Axis& a, const Axis& b) {
+bool intersect(const Axis& a, const Axis& b) {
   const auto side = [](const Axis& axis, const Vec2& point) {
-    const Vec2 along = axis.front - axis.rear;
-    const Vec2 to = point - axis.rear;
-    return along.x() * to.y() - along.y() * to.x();
+    return cross(axis.front - axis.rear, point - axis.rear);
   };
   return side(a, b.rear) * side(a, b.front) < 0.0 && side(b, a.rear) * side(b, a.front) < 0.0;
 }
 
 bool are_one(const Axis& a, const Axis& b) {
-  return cross(a, b) || std::min({distance(a.rear, b), distance(a.front, b), distance(b.rear, a),
+  return intersect(a, b) || std::min({distance(a.rear, b), distance(a.front, b), distance(b.rear, a),
                                   distance(b.front, a)}) < kApart;
 }
 

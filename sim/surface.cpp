@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
@@ -144,9 +145,8 @@ Contact contact_with_outline(const Vec2& point, const Vec2& position, double ang
                              const Outline& outline) {
   const Vec2 apart = point - position;
   if (outline.shape != Outline::Shape::kBox) return contact_with_disc(apart, 0.5 * outline.length);
-  const portable::SinCos turn = portable::sin_cos(angle);
-  const Vec2 along(turn.cos, turn.sin);
-  const Vec2 across(-turn.sin, turn.cos);
+  const Vec2 along = direction(angle);
+  const Vec2 across = left_of(along);
   Contact contact = contact_with_rectangle(Vec2(apart.dot(along), apart.dot(across)),
                                            outline.length, outline.width);
   contact.normal = contact.normal.x() * along + contact.normal.y() * across;
@@ -166,7 +166,7 @@ Contact Surface::contact(const Vec2& point) const {
   const double distance = apart.norm();
   const bool on_face = fraction >= 0.0 && fraction <= 1.0;
   if (distance > 0.0) return {apart / distance, distance, on_face, on_face ? 0.0 : 1.0 / distance};
-  return {Vec2(-along.y(), along.x()).normalized(), 0.0, on_face, 0.0};
+  return {left_of(along).normalized(), 0.0, on_face, 0.0};
 }
 
 }  // namespace ghtrack

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-namespace ghtrack {
+#include "sim/plane.hpp"
 
-using Vec2 = Eigen::Vector2d;
+namespace ghtrack {
 
 /// Index of an object among all objects of a world, 0, 1, …; stable during a run.
 using ObjectId = int;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 #include "sim/random.hpp"
 
@@ -29,7 +30,7 @@ std::vector<GustAxis> low_altitude_axes(const LowAltitude& turbulence, const Vec
   const double along_sigma = turbulence.intensity * speed;
   const double across_sigma = along_sigma * portable::pow(shape, 0.4);
   const Vec2 along = mean > 0.0 ? Vec2(mean_wind / mean) : Vec2::UnitX();
-  const Vec2 across(-along.y(), along.x());
+  const Vec2 across = left_of(along);
   std::vector<GustAxis> axes;
   for (const DrydenPart& part : parts) {
     const double amplitude = std::sqrt(part.weight);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
@@ -30,7 +31,7 @@ Vec2 gust_at(const OneMinusCosineGust& gust, double time) {
 Vec2 whirl_at(const RankineVortex& vortex, const Vec2& position, double time) {
   const Vec2 radius = position - vortex.center - time * vortex.velocity;
   const double r = radius.norm() / vortex.radius;
-  const Vec2 around(-radius.y(), radius.x());
+  const Vec2 around = left_of(radius);
   // |around| = r R, so V (r or r^−n) along it is V/R inside and V r^−(n+1) / R outside.
   const double decay = r <= 1.0 ? 1.0 : portable::pow(r, -vortex.exponent - 1.0);
   return vortex.velocity + vortex.max_speed * decay / vortex.radius * around;
@@ -47,7 +48,7 @@ Vec2 whirl_at(const HollandVortex& vortex, const Vec2& position, double time) {
   const double speed = std::sqrt(cyclostrophic + rotation * rotation) - rotation;
   const portable::SinCos inflow = portable::sin_cos(vortex.inflow_deg * portable::kDegree);
   const Vec2 outwards = radius / r;
-  const Vec2 around(-outwards.y(), outwards.x());
+  const Vec2 around = left_of(outwards);
   return vortex.velocity + speed * (inflow.cos * around - inflow.sin * outwards);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
@@ -12,19 +13,13 @@ namespace {
 constexpr double kMostPhase = 0.006;
 
 Vec2 from_pivot(double angle) {
-  const portable::SinCos direction = portable::sin_cos(angle);
-  return {direction.sin, -direction.cos};
-}
-
-Vec2 along_circle(double angle) {
-  const portable::SinCos direction = portable::sin_cos(angle);
-  return {direction.cos, direction.sin};
+  return -left_of(direction(angle));
 }
 
 }  // namespace
 
 void Pendulum::hasten(const Vec2& by) {
-  rate_deg += by.dot(along_circle(angle_deg * portable::kDegree)) / length / portable::kDegree;
+  rate_deg += by.dot(direction(angle_deg * portable::kDegree)) / length / portable::kDegree;
 }
 
 PendulumModel::State PendulumModel::start(const Environment&, double) const {
@@ -33,7 +28,7 @@ PendulumModel::State PendulumModel::start(const Environment&, double) const {
 
 double PendulumModel::angular_acceleration(const State& state,
                                            const Environment& environment) const {
-  return environment.gravity().dot(along_circle(state.angle)) / pendulum_.length -
+  return environment.gravity().dot(direction(state.angle)) / pendulum_.length -
          pendulum_.damping * state.rate;
 }
 
@@ -63,7 +58,7 @@ PlanarMotion PendulumModel::kinematics(const State& state, const Environment& en
                                        int) const {
   const double length = pendulum_.length;
   const Vec2 outwards = from_pivot(state.angle);
-  const Vec2 along = along_circle(state.angle);
+  const Vec2 along = direction(state.angle);
   return {pendulum_.position + length * outwards, length * state.rate * along,
           length * (angular_acceleration(state, environment) * along -
                     state.rate * state.rate * outwards)};
@@ -71,7 +66,7 @@ PlanarMotion PendulumModel::kinematics(const State& state, const Environment& en
 
 RigidBody PendulumModel::body(const State& state, int) const {
   return {pendulum_.position + pendulum_.length * from_pivot(state.angle),
-          pendulum_.length * state.rate * along_circle(state.angle), state.angle, state.rate};
+          pendulum_.length * state.rate * direction(state.angle), state.angle, state.rate};
 }
 
 ContactProperties PendulumModel::contact() const {

@@ -4,19 +4,13 @@
 #include <array>
 #include <cstddef>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
 namespace {
 
 constexpr double kSame = 1e-5;  // lines closer than this are one [m]
-
-Vec2 direction_of(double heading) {
-  const portable::SinCos direction = portable::sin_cos(heading);
-  return {direction.cos, direction.sin};
-}
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
@@ -30,10 +24,9 @@ Vec2 mean_direction(double heading, double curvature, double curvature_rate, dou
                                            0.2369268850561891};
   if (curvature_rate == 0.0) {
     const double half = 0.5 * curvature * length;
-    const portable::SinCos chord = portable::sin_cos(heading + half);
     const double shortening =
         std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : portable::sin_cos(half).sin / half;
-    return shortening * Vec2(chord.cos, chord.sin);
+    return shortening * direction(heading + half);
   }
   const double turn =
       (std::abs(curvature) + std::abs(curvature_rate) * std::abs(length)) * std::abs(length);
@@ -42,9 +35,7 @@ Vec2 mean_direction(double heading, double curvature, double curvature_rate, dou
   for (int part = 0; part < parts; ++part) {
     for (std::size_t i = 0; i < kNodes.size(); ++i) {
       const double s = length * (part + 0.5 * (1.0 + kNodes[i])) / parts;
-      const portable::SinCos direction =
-          portable::sin_cos(heading + s * (curvature + 0.5 * s * curvature_rate));
-      sum += kWeights[i] * Vec2(direction.cos, direction.sin);
+      sum += kWeights[i] * direction(heading + s * (curvature + 0.5 * s * curvature_rate));
     }
   }
   return 0.5 * sum / parts;
@@ -131,11 +122,11 @@ std::optional<PlaceOnLine> place_on(const RailLine& line, const RailLine& other)
     const TrackPoint mine = line.at(0.0);
     const TrackPoint there = other.at(0.0);
     const Vec2 apart = mine.position - there.position;
-    const Vec2 along = direction_of(there.heading);
-    const Vec2 direction = direction_of(mine.heading);
+    const Vec2 along = direction(there.heading);
+    const Vec2 forwards = direction(mine.heading);
     if (std::abs(cross(along, apart)) > kSame) return std::nullopt;
-    if (std::abs(cross(along, direction)) > 1e-9) return std::nullopt;
-    return PlaceOnLine{along.dot(apart), along.dot(direction) > 0.0 ? 1.0 : -1.0};
+    if (std::abs(cross(along, forwards)) > 1e-9) return std::nullopt;
+    return PlaceOnLine{along.dot(apart), along.dot(forwards) > 0.0 ? 1.0 : -1.0};
   }
   const double length = bends->second - bends->first;
   if (std::abs(length - (others->second - others->first)) > kSame) return std::nullopt;
@@ -160,7 +151,7 @@ double mark_of(const RailLine& line) {
     return (line.at(bends->first).position + line.at(bends->second).position).sum();
   }
   const TrackPoint begin = line.at(0.0);
-  return std::abs(cross(direction_of(begin.heading), begin.position));
+  return std::abs(cross(direction(begin.heading), begin.position));
 }
 
 }  // namespace ghtrack

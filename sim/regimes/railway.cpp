@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "sim/portable_math.hpp"
+#include "sim/plane.hpp"
 
 namespace ghtrack {
 namespace {
@@ -204,14 +204,13 @@ TrainCoupling TrackMotion::coupling_of(const Pair& pair, double time) const {
   const TrainOnTrack& train = trains_[pair.behind];
   const Face one = high(now_, pair.behind);
   const RigidBody car = train.model->body(now_[pair.behind], one.car);
-  const portable::SinCos heading = portable::sin_cos(car.angle);
   return {time,
           train.number,
           object_of(pair.behind, one),
           trains_[pair.ahead].number,
           object_of(pair.ahead, low(now_, pair.ahead)),
           car.position,
-          train.place.direction * passed * Vec2(heading.cos, heading.sin)};
+          train.place.direction * passed * direction(car.angle)};
 }
 
 /// Sets the pushes between those that touch.

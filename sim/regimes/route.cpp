@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
@@ -13,13 +14,6 @@ namespace {
 
 constexpr double kSameCourse =
     0.1 * portable::kDegree;  // a smaller bend after a turn is a rounded place
-
-Vec2 unit(double heading) {
-  const portable::SinCos direction = portable::sin_cos(heading);
-  return {direction.cos, direction.sin};
-}
-
-Vec2 left_of(const Vec2& forwards) { return {-forwards.y(), forwards.x()}; }
 
 /// A number for a message.
 std::string rounded(double value) {
@@ -113,19 +107,19 @@ class Planner {
     }
     const double taken = corner_after(leg, length);
     lay_straight(leg, length - taken);
-    place_ += taken * unit(heading_);  // the corner itself
+    place_ += taken * direction(heading_);  // the corner itself
     taken_ = taken;
   }
 
   /// What a straight leg before a corner leaves to the turn around it [m].
   double corner_after(std::size_t leg, double length) {
     if (leg + 1 == legs_.size() || is<GoTo>(leg + 1) == nullptr) return 0.0;
-    const Vec2 corner = place_ + length * unit(heading_);
+    const Vec2 corner = place_ + length * direction(heading_);
     const Vec2 way = is<GoTo>(leg + 1)->place - corner;
     const double far = way.norm();
     const double radius = legs_[leg].turn_radius.value_or(route_.turn_radius);
     if (far < 1e-6 || radius == 0.0) return 0.0;
-    const Vec2 forwards = unit(heading_);
+    const Vec2 forwards = direction(heading_);
     const double cosine = forwards.dot(way) / far;
     const double sine = std::abs(left_of(forwards).dot(way)) / far;
     if (1.0 + cosine < 1e-9) {
@@ -158,10 +152,10 @@ class Planner {
       const double radius = legs_[leg - 1].turn_radius.value_or(route_.turn_radius);
       const double speed = std::max(entering_[leg], 1e-9);
       const Vec2 corner = place_;
-      append({end_, corner - taken * unit(heading_), heading_, std::copysign(1.0 / radius, change),
+      append({end_, corner - taken * direction(heading_), heading_, std::copysign(1.0 / radius, change),
               speed, 0.0},
              radius * std::abs(change) / speed);
-      place_ = corner + taken * unit(heading);
+      place_ = corner + taken * direction(heading);
     }
     heading_ = heading;
     return taken;
@@ -214,7 +208,7 @@ class Planner {
     const double steady = length - (first + second) / hurry;
     if (steady > 0.0) {
       append({end_, place_, heading_, 0.0, speed, 0.0}, steady / speed);
-      place_ += steady * unit(heading_);
+      place_ += steady * direction(heading_);
     }
     lay_change(speed, leaving_[leg], hurry);
   }
@@ -223,7 +217,7 @@ class Planner {
     if (from == to) return;
     const double acceleration = std::copysign(hurry * route_.acceleration, to - from);
     append({end_, place_, heading_, 0.0, from, acceleration}, (to - from) / acceleration);
-    place_ += change_of(from, to) / hurry * unit(heading_);
+    place_ += change_of(from, to) / hurry * direction(heading_);
   }
 
   void append(const Stretch& stretch, double duration) {
@@ -305,7 +299,7 @@ void Route::shift(const Vec2& by) {
 }
 
 void Route::hasten(const Vec2& by) {
-  Vec2 forwards = unit(heading_deg * portable::kDegree);
+  Vec2 forwards = direction(heading_deg * portable::kDegree);
   if (!legs.empty()) {
     const auto* const go_to = std::get_if<GoTo>(&legs[0].course);
     const Vec2 way = go_to != nullptr ? Vec2(go_to->place - position) : forwards;
@@ -365,7 +359,7 @@ Vec2 RouteModel::way(const Stretch& stretch, const ProcessNoise::State& noise, d
   for (std::size_t i = 0; i < kNodes.size(); ++i) {
     const Travel there =
         travel(stretch, noise, from + 0.5 * (to - from) * (1.0 + kNodes[i]));
-    sum += kWeights[i] * there.speed * unit(there.heading);
+    sum += kWeights[i] * there.speed * direction(there.heading);
   }
   return 0.5 * (to - from) * sum;
 }
@@ -398,7 +392,7 @@ PlanarMotion RouteModel::motion(const State& state) const {
   const double elapsed = state.time - state.began;
   const Stretch& stretch = stretches_[stretch_at(elapsed)];
   const Travel now = travel(stretch, state.noise, elapsed);
-  const Vec2 forwards = unit(now.heading);
+  const Vec2 forwards = direction(now.heading);
   PlanarMotion motion{noise_.turns() ? state.position : prescribed_position(stretch, elapsed),
                       now.speed * forwards,
                       now.acceleration * forwards + now.speed * now.turn_rate * left_of(forwards)};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 
 namespace ghtrack {
@@ -144,7 +145,7 @@ FlightRate BallModel::rate(const FlightState& state, const Environment& environm
   if (state.spin != 0.0 && speed > 0.0) {
     const double s = ball_.radius * std::abs(state.spin) / speed;
     const double lift = std::copysign(lift_coefficient(ball_.lift, s), state.spin);
-    rate.acceleration += k * lift * speed * Vec2(-air.y(), air.x());
+    rate.acceleration += k * lift * speed * left_of(air);
     if (ball_.spin_decay > 0.0) rate.spin = -state.spin * speed / (ball_.spin_decay * kDecaySpeed);
   }
   if (ball_.buoyancy) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 #include "sim/regimes/railway.hpp"
 
@@ -467,9 +468,8 @@ void TrainModel::join(State& state, double time, ImpactLog* log) const {
     const double passed = (behind.inertia * ahead.momentum - ahead.inertia * behind.momentum) /
                           (behind.inertia + ahead.inertia);
     const TrackPoint point = track_.at(state.place[meeting.behind]);
-    const portable::SinCos heading = portable::sin_cos(point.heading);
     const bool every_car = train_.track_every_car;
-    log->push_back({time, -1, point.position, passed * Vec2(heading.cos, heading.sin),
+    log->push_back({time, -1, point.position, passed * direction(point.heading),
                     EventKind::kCoupling, every_car ? static_cast<int>(meeting.behind) : 0,
                     every_car ? static_cast<int>(meeting.ahead) : -1});
   }
@@ -512,19 +512,16 @@ PlanarMotion TrainModel::kinematics(const State& state, const Environment&, doub
   decide(now, time);
   const double speed = now.speed[unit];
   const TrackPoint point = track_.at(place_of(now, object));
-  const portable::SinCos heading = portable::sin_cos(point.heading);
-  const Vec2 forwards(heading.cos, heading.sin);
-  const Vec2 left(-heading.sin, heading.cos);
+  const Vec2 forwards = direction(point.heading);
   return {point.position, speed * forwards,
           accelerations(now, time, directions_of(now))[unit] * forwards +
-              speed * speed * point.curvature * left};
+              speed * speed * point.curvature * left_of(forwards)};
 }
 
 RigidBody TrainModel::body(const State& state, int index) const {
   const std::size_t unit = masses_.size() > 1 ? static_cast<std::size_t>(index) : 0;
   const TrackPoint point = track_.at(place_of(state, index));
-  const portable::SinCos heading = portable::sin_cos(point.heading);
-  return {point.position, state.speed[unit] * Vec2(heading.cos, heading.sin), point.heading,
+  return {point.position, state.speed[unit] * direction(point.heading), point.heading,
           state.speed[unit] * point.curvature};
 }
 

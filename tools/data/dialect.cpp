@@ -95,10 +95,11 @@ Dialect recognise_dialect(std::span<const std::string> lines) {
   constexpr std::array<char, 5> kSeparators = {';', '\t', '|', ',', ' '};
   auto found = std::find_if(kSeparators.begin(), kSeparators.end(),
                             [&](char c) { return separates(first, c); });
-  if (found == kSeparators.end() && lines.size() > 1) {  // a title, or one column
-    const std::string_view second = trimmed(lines[1]);
+  constexpr std::size_t kMostTitles = 4;  // or it is one column
+  for (std::size_t i = 1; found == kSeparators.end() && i < std::min(lines.size(), kMostTitles); ++i) {
+    const std::string_view line = trimmed(lines[i]);
     found = std::find_if(kSeparators.begin(), kSeparators.end(), [&](char c) {
-      return c != ' ' && separates(second, c) && !(c == ',' && has_decimal_comma(second));
+      return c != ' ' && separates(line, c) && !(c == ',' && has_decimal_comma(line));
     });
   }
   if (found == kSeparators.end()) {  // one column

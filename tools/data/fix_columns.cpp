@@ -35,15 +35,27 @@ bool is_of_fit(const Table& table, std::size_t column) {
   return table.headings()[column].base.starts_with("position_l");  // _lat, _long
 }
 
+/// The column whose cells hold latitude and longitude, in a table without columns of their own.
+std::optional<std::size_t> place_column(const Table& table) {
+  const ColumnMap& columns = table.columns();
+  const bool in_plane = columns.has(Role::kX) && columns.has(Role::kY);
+  const bool on_earth = columns.has(Role::kLatitude) && columns.has(Role::kLongitude);
+  const auto place = columns.find(Role::kPlace);
+  if (!place || columns.is_chosen(Role::kPlace)) return place;
+  const bool is_one = !in_plane && !on_earth && parse_place(table.first_cell(*place));
+  return is_one ? place : std::nullopt;
+}
+
 }  // namespace
 
 FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<GeoPoint> origin)
     : time_(table, options), origin_(origin) {
   const ColumnMap& columns = table.columns();
-  geographic_ = columns.has(Role::kLatitude) && columns.has(Role::kLongitude) &&
-                !(columns.has(Role::kX) && columns.has(Role::kY));
-  x_ = table.required(geographic_ ? Role::kLongitude : Role::kX);
-  y_ = table.required(geographic_ ? Role::kLatitude : Role::kY);
+  const auto place = place_column(table);
+  geographic_ = place || (columns.has(Role::kLatitude) && columns.has(Role::kLongitude) &&
+                          !(columns.has(Role::kX) && columns.has(Role::kY)));
+  x_ = place ? *place : table.required(geographic_ ? Role::kLongitude : Role::kX);
+  y_ = place ? *place : table.required(geographic_ ? Role::kLatitude : Role::kY);
   table.throw_missing_columns();
   if (!geographic_) {
     origin_.reset();
@@ -70,14 +82,15 @@ std::optional<Fix> FixColumns::read(Table& table) {
   const auto time = time_.read(table);
   if (!time) return std::nullopt;
   Fix fix{.time = *time, .position = std::nullopt};
-  const auto x = coordinate(table, x_);
-  const auto y = coordinate(table, y_);
+  const auto [x, y] = coordinates(table);
   if (!x || !y) {
     const bool x_missing = is_missing(table.cell(x_));
     const bool y_missing = is_missing(table.cell(y_));
-    const char* const wanted = geographic_ ? "a number of degrees" : "a finite number";
+    const char* const wanted = x_ == y_      ? "a latitude and a longitude"
+                               : geographic_ ? "a number of degrees"
+                                             : "a finite number";
     if (!x && !x_missing) table.reject_cell(x_, wanted);
-    if (!y && !y_missing) table.reject_cell(y_, wanted);
+    if (!y && !y_missing && x_ != y_) table.reject_cell(y_, wanted);
     if ((!x && !x_missing) || (!y && !y_missing)) return std::nullopt;
     return fix;
   }
@@ -94,6 +107,12 @@ std::optional<Fix> FixColumns::read(Table& table) {
   if (!origin_) origin_ = point;
   fix.position = to_metres(*origin_, point);
   return fix;
+}
+
+FixColumns::Coordinates FixColumns::coordinates(const Table& table) const {
+  if (x_ != y_) return {coordinate(table, x_), coordinate(table, y_)};
+  const auto place = parse_place(table.cell(x_));
+  return place ? Coordinates{place->longitude, place->latitude} : Coordinates{};
 }
 
 /// A number; of degrees also one with minutes and seconds.

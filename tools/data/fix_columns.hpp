@@ -39,11 +39,15 @@ class FixColumns {
   std::string describe(const Table& table) const;
 
  private:
-  TimeColumn time_;
-  std::size_t x_ = 0, y_ = 0;
-  std::optional<std::size_t> sigma_x_, sigma_y_;
+  struct Coordinates {
+    std::optional<double> x, y;
+  };
+  Coordinates coordinates(const Table& table) const;
   std::optional<double> coordinate(const Table& table, std::size_t column) const;
 
+  TimeColumn time_;
+  std::size_t x_ = 0, y_ = 0;  // one column where a cell holds latitude and longitude
+  std::optional<std::size_t> sigma_x_, sigma_y_;
   Scale x_scale_, y_scale_, sigma_x_scale_, sigma_y_scale_;
   bool geographic_ = false;
   std::string_view degrees_ = "degrees";  // what the numbers are, where they are geographic

@@ -17,7 +17,7 @@ struct RoleName {
   Role role;
   std::string_view name;
 };
-constexpr std::array<RoleName, 20> kRoles = {{{Role::kTime, "t"},
+constexpr std::array<RoleName, 21> kRoles = {{{Role::kTime, "t"},
                                               {Role::kDate, "date"},
                                               {Role::kFrame, "frame"},
                                               {Role::kX, "x"},
@@ -25,6 +25,7 @@ constexpr std::array<RoleName, 20> kRoles = {{{Role::kTime, "t"},
                                               {Role::kZ, "z"},
                                               {Role::kLatitude, "lat"},
                                               {Role::kLongitude, "lon"},
+                                              {Role::kPlace, "place"},
                                               {Role::kIdentity, "id"},
                                               {Role::kSensor, "sensor"},
                                               {Role::kClass, "class"},
@@ -43,12 +44,13 @@ struct Alias {
   Role role;
   std::string_view names;  // separated by blanks
 };
-constexpr std::array<Alias, 20> kAliases = {{
+constexpr std::array<Alias, 21> kAliases = {{
     {Role::kTime,
      "t time timestamp time_stamp datetime date_time date/time basedatetime base_date_time utc "
      "time_utc utc_time gps_time gpstime unix_time unixtime epoch posixtime time_position elapsed "
-     "elapsed_time seconds sec ts zeit temps tiempo t_s"},
-    {Role::kDate, "date day"},
+     "elapsed_time seconds sec ts zeit uhrzeit zeitpunkt zeitstempel temps heure horodatage tiempo "
+     "hora tijd t_s"},
+    {Role::kDate, "date day datum jour fecha dia"},
     {Role::kFrame,
      "frame frame_number frame_no frame_id frame_index frame_idx framenumber image image_id "
      "img_id"},
@@ -60,10 +62,16 @@ constexpr std::array<Alias, 20> kAliases = {{
      "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc mass_a_y v"},
     {Role::kZ, "z value measurement measured reading position pos distance range height altitude "
                "data signal x"},
-    {Role::kLatitude, "lat latitude lat_deg latitude_deg gps_lat location_lat breite breitengrad geographische_breite"},
+    {Role::kLatitude,
+     "lat latitude lat_deg latitude_deg gps_lat location_lat position_lat gps_latitude latitud "
+     "latitudine breite breitengrad geographische_breite"},
     {Role::kLongitude,
-     "lon long lng longitude lon_deg longitude_deg gps_lon gps_long location_long "
-     "location_lon laenge länge längengrad laengengrad geographische_länge"},
+     "lon long lng longitude lon_deg longitude_deg gps_lon gps_long location_long location_lon "
+     "position_long gps_longitude longitud longitudine laenge länge längengrad laengengrad "
+     "geographische_länge"},
+    {Role::kPlace,
+     "place position location coordinates coords latlng latlon lat_lng lat_lon lat_long lat/lon "
+     "lat,lon geo geometry geom the_geom wkt point koordinaten"},
     {Role::kIdentity,
      "id truth_id track_id object_id target_id trackid objectid mmsi icao24 icao hex vehicle_id "
      "name"},
@@ -252,8 +260,8 @@ namespace {
 /// before it say that it is something else, such as a velocity.
 std::string_view telling_word(std::string_view base) {
   constexpr std::string_view kOthers =
-      "v vel velocity speed geschwindigkeit a acc accel acceleration beschleunigung gyro omega "
-      "angular force kraft mag size sigma std error err residual offset start end delta d min max";
+      "v vel velocity speed twist linear geschwindigkeit a acc accel acceleration beschleunigung "
+      "gyro omega angular rotation orientation quaternion covariance force kraft mag size sigma std error err residual offset start end delta d min max";
   const std::size_t last = base.find_last_of("_:");
   if (last == std::string_view::npos) return {};
   std::string_view before = base.substr(0, last);
@@ -312,7 +320,7 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
     });
   }
   for (const auto& [role, words] :
-       {std::pair(Role::kTime, "t time zeit"), std::pair(Role::kX, "x"), std::pair(Role::kY, "y"),
+       {std::pair(Role::kTime, "t time stamp timestamp zeit"), std::pair(Role::kX, "x"), std::pair(Role::kY, "y"),
         std::pair(Role::kLatitude, "lat latitude"),
         std::pair(Role::kLongitude, "lon long longitude")}) {
     if (has(role)) continue;

@@ -20,6 +20,7 @@ enum class Role {
   kZ,          // the value of a series
   kLatitude,   // [°]
   kLongitude,  // [°]
+  kPlace,      // latitude and longitude in one cell
   kIdentity,
   kSensor,
   kClass,

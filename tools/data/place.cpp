@@ -2,8 +2,11 @@
 
 #include <GeographicLib/AzimuthalEquidistant.hpp>
 #include <GeographicLib/DMS.hpp>
+#include <algorithm>
 #include <cmath>
 #include <string>
+
+#include "tools/record/text_file.hpp"
 
 namespace ghtrack {
 
@@ -35,6 +38,30 @@ std::optional<double> parse_degrees(std::string_view text, bool is_latitude) {
   } catch (const GeographicLib::GeographicErr&) {
     return std::nullopt;
   }
+}
+
+std::optional<GeoPoint> parse_place(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  const auto number = [&](std::string_view part) {
+    const std::size_t start = part.find_first_not_of(kBlanks);
+    if (start == std::string_view::npos) return std::optional<double>();
+    return parse_number(part.substr(start, part.find_last_not_of(kBlanks) - start + 1));
+  };
+  const std::size_t open = text.find('(');
+  const bool is_well_known =
+      (text.starts_with("POINT") || text.starts_with("Point")) && open != std::string_view::npos;
+  if (is_well_known) {
+    if (text.back() != ')') return std::nullopt;
+    text = text.substr(open + 1, text.size() - open - 2);
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  }
+  const std::size_t joint = text.find_first_of(is_well_known ? " \t" : ",;");
+  if (joint == std::string_view::npos) return std::nullopt;
+  const auto first = number(text.substr(0, joint));
+  const auto second = number(text.substr(joint + 1));
+  if (!first || !second) return std::nullopt;
+  return is_well_known ? GeoPoint{.latitude = *second, .longitude = *first}
+                       : GeoPoint{.latitude = *first, .longitude = *second};
 }
 
 bool is_on_earth(const GeoPoint& point) {

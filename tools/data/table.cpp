@@ -72,12 +72,31 @@ void join_date_and_time(std::vector<std::string_view>& cells) {
   }
 }
 
-/// What a row of headings must have to be one: a time and a place.
-bool is_telling(const std::vector<Heading>& headings) {
-  const ColumnMap map(headings, {});
-  const bool in_plane = map.has(Role::kX) && map.has(Role::kY);
-  const bool on_earth = map.has(Role::kLatitude) && map.has(Role::kLongitude);
-  return (map.has(Role::kTime) || map.has(Role::kFrame)) && (in_plane || on_earth);
+/// Whether a row of headings names a time and a place.
+bool is_telling(const std::vector<Heading>& headings, const std::vector<ColumnChoice>& choices) {
+  try {
+    const ColumnMap map(headings, choices);
+    const bool in_plane = map.has(Role::kX) && map.has(Role::kY);
+    const bool on_earth = map.has(Role::kLatitude) && map.has(Role::kLongitude);
+    return (map.has(Role::kTime) || map.has(Role::kFrame)) && (in_plane || on_earth);
+  } catch (const ColumnError&) {  // a column that is there twice: not for this to say
+    return false;
+  }
+}
+
+/// Where one name heads several columns, as X of a rotation and of a position, the row above tells
+/// them apart; a cell there may stand for those after it, too.
+std::vector<Heading> headings_below(const std::vector<std::string>& above,
+                                    const std::vector<std::string_view>& cells) {
+  std::vector<Heading> headings;
+  std::string group;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i < above.size() && !above[i].empty()) group = above[i];
+    const bool repeats = std::count(cells.begin(), cells.end(), cells[i]) > 1;
+    headings.push_back(parse_heading(repeats ? fmt::format("{} {}", group, cells[i])
+                                             : std::string(cells[i])));
+  }
+  return headings;
 }
 
 TextInput open_input(const std::string& path, const std::function<void()>& pause) {
@@ -92,8 +111,8 @@ Table::Table(const std::string& path, const ReadOptions& options)
       input_(open_input(path, options.pause)),
       findings_(input_.name()),
       columns_({}, {}) {
-  take_sample();
   try {
+    take_sample();
     std::vector<ColumnChoice> choices = parse_column_choices(options_.columns);
     if (!options_.time_column.empty()) choices.push_back({Role::kTime, options_.time_column});
     take_units_of(choices);
@@ -158,14 +177,11 @@ void Table::find_header(const std::string& last_comment) {
   if (sample_.empty()) return;
   split_cells(sample_.front().text, dialect_.separator, cells_, owned_);
   if (dialect_.separator == ' ') join_units(cells_);
-  const bool starts_with_value =
-      is_value(cells_.front(), dialect_.point) ||
-      (cells_.size() > 1 && is_missing(cells_.front()) && is_value(cells_[1], dialect_.point));
-  has_header_ = !starts_with_value;
+  has_header_ = !starts_with_value();
   if (has_header_) {
     for (const std::string_view cell : cells_) headings_.push_back(parse_heading(cell));
     first_row_ = 1;
-    if (options_.columns.empty()) take_title_rows();
+    take_title_rows();
     while (first_row_ < sample_.size() && repeats_header(sample_[first_row_].text)) ++first_row_;
     if (take_units_row()) ++first_row_;
     return;
@@ -188,25 +204,30 @@ void Table::find_header(const std::string& last_comment) {
   }
 }
 
+bool Table::starts_with_value() const {
+  return is_value(cells_.front(), dialect_.point) ||
+         (cells_.size() > 1 && is_missing(cells_.front()) && is_value(cells_[1], dialect_.point));
+}
+
 /// Where the first row says nothing of the columns, a row of headings below it may: above it are
-/// titles, as the names of objects in a program for videos.
-bool Table::take_title_rows() {
+/// titles, as the names of objects in a program for videos, or the rate of a motion capture alone.
+void Table::take_title_rows() {
   constexpr std::size_t kMostTitles = 8;
-  try {
-    if (is_telling(headings_)) return false;
-    for (std::size_t row = 1; row < std::min(sample_.size(), kMostTitles); ++row) {
-      split_cells(sample_[row].text, dialect_.separator, cells_, owned_);
-      if (is_value(cells_.front(), dialect_.point)) return false;
-      std::vector<Heading> below;
-      for (const std::string_view cell : cells_) below.push_back(parse_heading(cell));
-      if (!is_telling(below)) continue;
+  const std::vector<ColumnChoice> choices = parse_column_choices(options_.columns);
+  if (is_telling(headings_, choices)) return;
+  std::vector<std::string> above;
+  for (const Heading& heading : headings_) above.push_back(heading.text);
+  for (std::size_t row = 1; row < std::min(sample_.size(), kMostTitles); ++row) {
+    split_cells(sample_[row].text, dialect_.separator, cells_, owned_);
+    if (cells_.size() > 1 && starts_with_value()) return;
+    std::vector<Heading> below = headings_below(above, cells_);
+    if (is_telling(below, choices)) {
       headings_ = std::move(below);
       first_row_ = row + 1;
-      return true;
+      return;
     }
-  } catch (const ColumnError&) {  // a column that is there twice: not for this to say
+    above.assign(cells_.begin(), cells_.end());
   }
-  return false;
 }
 
 /// Whether a row below the header is one again: times and places are named where they are.
@@ -298,6 +319,9 @@ std::optional<std::string_view> Table::next_line() {
 void Table::split_row(std::string_view line) {
   split_cells(line, dialect_.separator, cells_, owned_);
   while (cells_.size() > headings_.size() && cells_.back().empty()) cells_.pop_back();
+  while (cells_.size() < headings_.size() && headings_[cells_.size()].text.empty()) {
+    cells_.emplace_back();  // a column without a name needs no cells
+  }
   if (dialect_.separator == ' ' && cells_.size() == headings_.size() + 1) {
     join_date_and_time(cells_);
   }

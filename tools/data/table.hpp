@@ -96,7 +96,8 @@ class Table {
   void take_units_of(std::vector<ColumnChoice>& choices);
   void find_header(const std::string& last_comment);
   void find_first_values();
-  bool take_title_rows();
+  bool starts_with_value() const;
+  void take_title_rows();
   bool take_units_row();
   bool repeats_header(const std::string& line);
   std::optional<std::string_view> next_line();

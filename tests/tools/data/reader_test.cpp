@@ -141,6 +141,23 @@ TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
       expected);
   EXPECT_EQ(scans_of("timestamp,x,y\n0,1,2\n500000,1.5,2.5\n", {.columns = "t=timestamp[us]"}),
             expected);
+  // What OptiTrack, Vicon and ROS write: names of groups over names that repeat, the rate alone in
+  // a row, fields of messages.
+  EXPECT_EQ(scans_of("Format Version,1.23,Take Name,walk\n\n,Type,Body,Body,Body,Body\n"
+                     ",,Rotation,Rotation,Position,Position\n"
+                     "Frame,Time (Seconds),X,Y,X,Y,\n0,0,9,9,1,2\n60,0.5,9,9,1.5,2.5\n"),
+            expected);
+  EXPECT_EQ(scans_of("Trajectories\n100\n,,Walker:Head,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n"
+                     "0,0,1000,2000,9\n50,0,1500,2500,9\n",
+                     {.columns = "", .frame_rate = 100.0}),
+            expected);
+  EXPECT_EQ(scans_of("%time,field.header.seq,field.pose.position.x,field.pose.position.y,"
+                     "field.pose.orientation.x,field.pose.orientation.y\n"
+                     "0,1,1,2,9,9\n0.5,2,1.5,2.5,9,9\n"),
+            expected);
+  EXPECT_EQ(scans_of("names,of,objects,here\na,b,c,d\n0,1,2,9\n0.5,1.5,2.5,9\n",
+                     {.columns = "t=a,x=b,y=c"}),
+            expected);
   EXPECT_EQ(scans_of("# Timestamp,x,y\n01/01/1970 00:00:00,1,2\n01/01/1970 00:00:00.5,1.5,2.5\n"),
             expected);
   EXPECT_THAT(message_of("vel t,vel x,vel y\n0,1,2\n",
@@ -176,6 +193,12 @@ TEST(ScanReader, ReadsDegreesInEveryForm) {
   const Eigen::Vector2d fit =
       last("590558003,98426334", "590569934,98438264", "position_lat,position_long");
   EXPECT_TRUE(fit.isApprox(expected, 1e-3)) << fit.transpose();  // a semicircle is 9 mm
+  EXPECT_EQ(last("49.5,8.25", "49.501,8.251", "Breite,Länge"), expected);
+  EXPECT_EQ(last("\"49.5,8.25\"", "\"49.501, 8.251\"", "Position"), expected);
+  EXPECT_EQ(last("POINT (8.25 49.5)", "POINT(8.251 49.501)", "geometry"), expected);
+  EXPECT_THAT(message_of("t,Position\n0,\"49.5,8.25\"\n1,here\n",
+                         [](const auto& path) { ScanReader reader(path.string()); }),
+              HasSubstr("'here' in column 'Position' is not a latitude and a longitude"));
   EXPECT_EQ(last("49.5,8.25", "91,181"), Eigen::Vector2d(-1.0, -1.0));
   EXPECT_THAT(message_of("t,lat,lon\n0,49°30'E,8°15'E\n",
                          [](const auto& path) { ScanReader reader(path.string()); }),
