@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "tools/experiment/engine.hpp"
 #include "tools/experiment/labelled_objects.hpp"
+#include "tools/experiment/parallel.hpp"
 #include "tracker/filters/gains/analysis.hpp"
 
 namespace ghtrack {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tools/experiment/analysis.hpp"
-#include "tools/experiment/engine.hpp"
+#include "tools/experiment/parallel.hpp"
 #include "tools/experiment/trial.hpp"
 #include "tracker/filters/gains/rules.hpp"
 

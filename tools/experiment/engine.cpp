@@ -1,30 +1,20 @@
-// The only file that knows oneTBB.
-
 #include "tools/experiment/engine.hpp"
-
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <future>
 #include <iterator>
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "tools/experiment/parallel.hpp"
 #include "tools/experiment/trial.hpp"
 
 namespace ghtrack {
@@ -127,24 +117,6 @@ std::string place_of(const CampaignCell& cell, int run) {
          std::to_string(run);
 }
 
-/// So many threads, or as many as the system gives this process. oneTBB itself would abort where a
-/// limit on processes or memory leaves it without one.
-int available_threads(std::size_t wanted) {
-  std::vector<std::jthread> threads;
-  std::promise<void> known;
-  const std::shared_future<void> released = known.get_future().share();
-  try {
-    while (threads.size() + 1 < wanted) threads.emplace_back([released] { released.wait(); });
-  } catch (const std::system_error&) {
-    // no more than these
-  } catch (const std::bad_alloc&) {
-  }
-  known.set_value();
-  const bool all = threads.size() + 1 >= wanted;
-  // Where there is a limit, others may need threads as well: be content with half.
-  return static_cast<int>(std::max<std::size_t>(1, all ? wanted : threads.size() / 2));
-}
-
 }  // namespace
 
 std::int64_t runs_to_do(const Campaign& campaign, std::span<const CellGroup> groups,
@@ -182,36 +154,7 @@ void compute(const Campaign& campaign, std::span<const CellGroup> groups, const 
       on_result(outcome.item.cells[i], outcome.item.run, std::move(outcome.scores[i]));
     }
   };
-  jobs = available_threads(static_cast<std::size_t>(jobs));
-  if (jobs == 1) {
-    while (const std::optional<Item> item = items.next()) deliver(run(*item));
-    return;
-  }
-  const auto tokens = static_cast<std::size_t>(2 * jobs);  // runs under way or waiting
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(jobs));
-  tbb::task_arena(jobs).execute([&] {
-    tbb::parallel_pipeline(
-        tokens, tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order,
-                                             [&](tbb::flow_control& control) {
-                                               if (auto item = items.next()) return *item;
-                                               control.stop();
-                                               return Item{};
-                                             }) &
-                    tbb::make_filter<Item, Outcome>(tbb::filter_mode::parallel, run) &
-                    tbb::make_filter<Outcome, void>(tbb::filter_mode::serial_in_order, deliver));
-  });
-}
-
-void in_parallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& task) {
-  jobs = available_threads(std::min<std::size_t>(static_cast<std::size_t>(jobs), count));
-  if (jobs == 1) {
-    for (std::size_t i = 0; i < count; ++i) task(i);
-    return;
-  }
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(jobs));
-  tbb::task_arena(jobs).execute([&] { tbb::parallel_for(std::size_t{0}, count, task); });
+  OrderedWork<Item, Outcome>([&] { return items.next(); }, run, deliver).run(jobs);
 }
 
 }  // namespace ghtrack

@@ -34,7 +34,4 @@ void compute(const Campaign& campaign, std::span<const CellGroup> groups, const 
              const RunSet& done, int jobs, const std::function<void()>& on_step,
              const std::function<void(std::size_t cell, int run, std::vector<double>)>& on_result);
 
-/// Calls `task` with 0, 1, …, count − 1, in any order, with `jobs` threads.
-void in_parallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& task);
-
 }  // namespace ghtrack

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <variant>
 
-#include "tools/experiment/engine.hpp"
 #include "tools/experiment/even_objects.hpp"
 #include "tools/experiment/gain_search.hpp"
+#include "tools/experiment/parallel.hpp"
 #include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/axis_covariance.hpp"
 #include "tracker/filters/gains/analysis.hpp"

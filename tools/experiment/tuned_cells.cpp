@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "scenes/schema/writer.hpp"
-#include "tools/experiment/engine.hpp"
 #include "tools/experiment/labelled_objects.hpp"
+#include "tools/experiment/parallel.hpp"
 #include "tools/experiment/shared_truth.hpp"
 #include "tools/experiment/tuning.hpp"
 

@@ -14,9 +14,9 @@
 #include "scenes/schema/descriptions.hpp"
 #include "scenes/schema/value_json.hpp"
 #include "tools/experiment/analysis.hpp"
-#include "tools/experiment/engine.hpp"
 #include "tools/experiment/gain_search.hpp"
 #include "tools/experiment/labelled_objects.hpp"
+#include "tools/experiment/parallel.hpp"
 #include "tools/experiment/statistics.hpp"
 #include "tools/experiment/trial.hpp"
 

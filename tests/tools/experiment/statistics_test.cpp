@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "sim/random.hpp"
+#include "tools/metrics/mean.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 // Derived: mean 3, s² = 2.5, n = 5, t(0.975, 4) = 2.776445 and t(0.9825, 4) = 3.135495: half
 // width t √(s²/n), on the logarithm of what is positive.
