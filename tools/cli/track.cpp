@@ -129,7 +129,8 @@ class FitWatch {
   }
 
   /// Says what does not fit, why, and what to set.
-  void report(const OfflineConfig& config) const {
+  /// @param learned  whether noise and motion are what the data themselves say
+  void report(const OfflineConfig& config, bool learned) const {
     if (confirmed_.empty()) {
       tell("ghtrack: warning: nothing was confirmed of {} tracks that began: nothing seems to go on "
            "from scan to scan. If something does, say in a file for --config how: 'noise' and "
@@ -146,6 +147,10 @@ class FitWatch {
       tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
            "expect: 'noise'{} or the filters' process noise is too small",
            ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
+    } else if (ratio < 1.0 / kFar && learned) {
+      tell("ghtrack: the paths are smoother than random motion: squared residuals are {:.2g} times "
+           "what the filters expect, and errors are smaller than they are said to be",
+           ratio);
     } else if (ratio < 1.0 / kFar) {
       tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
            "expect: 'noise'{} or the filters' process noise is too great",
@@ -357,7 +362,7 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   if (!options.save_config.empty()) {
     write_file(options.save_config, schema::write_configuration(config));
   }
-  if (!manners.quiet) watch.report(config);
+  if (!manners.quiet) watch.report(config, learns);
   report_refusals(state, manners);
   if (options.plots) write_plots(output_file(options.output, "tracks.csv"), options);
   if (!filmed) return;

@@ -134,7 +134,8 @@ std::string FixColumns::describe(const Table& table) const {
   const auto name = [&](std::size_t column) { return name_of_column(table, column); };
   std::string text = time_.describe(table);
   if (geographic_) {
-    text += fmt::format(", x and y in m from {} in {} and {}", degrees_, name(x_), name(y_));
+    text += fmt::format(", x and y in m from {} in {}{}", degrees_, name(x_),
+                        x_ == y_ ? "" : " and " + name(y_));
     if (origin_) {
       text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin_->latitude,
                           origin_->longitude);

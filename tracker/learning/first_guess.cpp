@@ -176,7 +176,7 @@ std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> senso
             [](const Pair& a, const Pair& b) { return a.speed < b.speed; });
   Scales best;
   std::vector<Trial> trials;
-  for (const double noise : noises_of(pairs, rounding(sensors).maxCoeff())) {
+  for (const double noise : noises_of(pairs, rounding(sensors).minCoeff())) {
     if (!(noise > 0.0)) continue;
     const double variance = noise * noise;
     for (const double share : kShares) {

@@ -101,6 +101,27 @@ std::optional<double> spread_of(const std::vector<Eigen::Vector2d>& places) {
   return std::numbers::pi * *at / kNearest;
 }
 
+/// How far from the parabola through the three before it a fix of any path is at most [m].
+double roughness(const std::vector<Path>& paths, int axis) {
+  double most = 0.0;
+  for (const Path& path : paths) {
+    const std::vector<Fix>& fixes = path.fixes;
+    for (std::size_t i = 3; i < fixes.size(); ++i) {
+      double expected = 0.0;
+      for (std::size_t j = i - 3; j < i; ++j) {  // Lagrange's weights
+        double weight = 1.0;
+        for (std::size_t k = i - 3; k < i; ++k) {
+          if (k == j) continue;
+          weight *= (fixes[i].time - fixes[k].time) / (fixes[j].time - fixes[k].time);
+        }
+        expected += weight * fixes[j].position[axis];
+      }
+      most = std::max(most, std::abs(fixes[i].position[axis] - expected));
+    }
+  }
+  return most;
+}
+
 class Learner {
  public:
   Learner(const TrackerConfig& config, std::span<const SensorSaid> sensors,
@@ -120,7 +141,7 @@ class Learner {
       if (!seen[s].isEmpty()) seen_.back() = seen[s].sizes();
       interval_ = s == 0 ? sensors[s].period : std::min(interval_, sensors[s].period);
     }
-    least_noise_ = (rounding(looks()) / std::sqrt(12.0)).cwiseMax(1e-6 * extent_);
+    rounding_ = rounding(looks());
   }
 
   LearnedTracker run() {
@@ -202,7 +223,7 @@ class Learner {
   Parameters begin() const {
     const auto scales = first_guess(looks());
     const double fallback = extent_ > 0.0 ? 0.01 * extent_ : 1.0;
-    double noise = std::max(scales ? scales->noise : fallback, least_noise_.maxCoeff());
+    double noise = std::max(scales ? scales->noise : fallback, least_noise({}).minCoeff());
     if (said_.front().noise) noise = std::sqrt(said_.front().noise->prod());
     Parameters p;
     p.motion.initial_speed =
@@ -407,6 +428,17 @@ class Learner {
     return existence;
   }
 
+  /// What places can tell of noise: no less than the error of rounding. Where paths are smooth far
+  /// below the step that they are multiples of, this is of the motion, such as 3 m a second.
+  Eigen::Vector2d least_noise(const std::vector<Path>& paths) const {
+    Eigen::Vector2d least = Eigen::Vector2d::Constant(1e-6 * extent_);
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!paths.empty() && roughness(paths, axis) < 0.1 * rounding_[axis]) continue;
+      least[axis] = std::max(least[axis], rounding_[axis] / std::sqrt(12.0));
+    }
+    return least;
+  }
+
   Parameters refined(const Parameters& before, const Pass& pass, bool first) {
     Parameters next = before;
     std::vector<double> intervals;
@@ -417,9 +449,10 @@ class Learner {
     }
     interval_ = std::max(median(intervals, interval_), 1e-9 * interval_);
     next.motion = fit_motion(pass.paths, before.motion, interval_, first).model;
+    const Eigen::Vector2d least = least_noise(pass.paths);
     for (LearnedMotion::Noise& noise : next.motion.noise) {
-      if (!noise.x.is_given) noise.x.value = std::max(noise.x.value, least_noise_.x());
-      if (!noise.y.is_given) noise.y.value = std::max(noise.y.value, least_noise_.y());
+      if (!noise.x.is_given) noise.x.value = std::max(noise.x.value, least.x());
+      if (!noise.y.is_given) noise.y.value = std::max(noise.y.value, least.y());
     }
     const LearnedMotion::Noise& noise = next.motion.noise.front();
     next.motion.initial_speed = std::max(
@@ -535,7 +568,7 @@ class Learner {
   std::vector<Eigen::Vector2d> seen_;       // of each sensor: the sides of the box of detections
   double detections_ = 0.0;
   double extent_ = 0.0;    // the longest side
-  Eigen::Vector2d least_noise_ = Eigen::Vector2d::Zero();  // that places can tell
+  Eigen::Vector2d rounding_ = Eigen::Vector2d::Zero();  // the step of the places [m]
   double interval_ = 1.0;  // typical time between two detections of a target
   int passes_ = 0;
 };

@@ -83,6 +83,33 @@ TEST_P(Speeds, AreFollowedWithOneTrackEach) {
 
 INSTANTIATE_TEST_SUITE_P(BesideTheNoise, Speeds, ::testing::Values(2.0, 20.0, 200.0, 2e3, 2e4, 1e6));
 
+/// One target that is seen at whole numbers, wherever it is.
+std::vector<Scan> seen_at_whole_numbers(double speed) {
+  std::vector<Scan> scans;
+  for (int i = 0; i < 60; ++i) {
+    Detection detection;
+    detection.position = {std::round(speed * i), 10.0 * i};
+    detection.covariance.setZero();
+    scans.push_back({.time = 1.0 * i, .sensor = 0, .detections = {detection}});
+  }
+  return scans;
+}
+
+// Property: whole numbers that a rounded path jumps between have the error of rounding, 1/√12;
+// those of a path that is 3 m further on every time have none.
+TEST(LearnedConfig, TellsRoundingFromMotion) {
+  for (const double speed : {0.05, 0.37, 2.6}) {
+    const LearnedTracker learned = learn_offline({}, recorded(seen_at_whole_numbers(speed))).learned;
+    EXPECT_GT(learned.sensors[0].noise.x.value, 0.28) << speed;
+    EXPECT_LT(learned.sensors[0].noise.x.value, 0.5) << speed;
+    EXPECT_LT(learned.sensors[0].noise.y.value, 0.01) << speed;
+  }
+  for (const double speed : {3.0, 20.0}) {
+    const LearnedTracker learned = learn_offline({}, recorded(seen_at_whole_numbers(speed))).learned;
+    EXPECT_LT(learned.sensors[0].noise.x.value, 0.01) << speed;
+  }
+}
+
 // Property: what is learned leaves nothing open, and learning again from it changes nothing.
 TEST(LearnedConfig, SaysAllThatThereIsToSay) {
   const std::vector<Scan> scans = LearningScene{}.record(2);
