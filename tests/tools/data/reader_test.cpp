@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/tools/record/message_of.hpp"
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/data/point_reader.hpp"
 #include "tools/data/scan_reader.hpp"
-#include "tools/record/errors.hpp"
 
 namespace ghtrack {
 namespace {
@@ -34,24 +34,6 @@ std::string scans_of(const std::string& content, const ReadOptions& options = {}
     text += "; ";
   }
   return text;
-}
-
-/// The message that names the file "in.csv" without its folder.
-template <class Read>
-std::string message_of(const std::string& content, Read read) {
-  const ScratchFolder folder;
-  const auto path = folder.write("in.csv", content);
-  try {
-    read(path);
-  } catch (const InputError& error) {
-    std::string text = error.what();
-    const std::string prefix = folder.path().string() + "/";
-    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
-      text.erase(at, prefix.size());
-    }
-    return text;
-  }
-  return "accepted";
 }
 
 // Derived: rows with the same time and sensor make one scan; times are sorted.

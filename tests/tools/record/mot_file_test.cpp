@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/tools/record/message_of.hpp"
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/record/mot_file.hpp"
@@ -18,24 +19,6 @@ namespace ghtrack {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// Runs `read` on a file with this content. The message names the file "in.csv" without its folder.
-template <class Read>
-std::string message_of(const std::string& content, Read read) {
-  const ScratchFolder folder;
-  const auto path = folder.write("in.csv", content);
-  try {
-    read(path);
-  } catch (const InputError& error) {
-    std::string text = error.what();
-    const std::string prefix = folder.path().string() + "/";
-    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
-      text.erase(at, prefix.size());
-    }
-    return text;
-  }
-  return "accepted";
-}
 
 std::string detections_message(const std::string& content) {
   return message_of(content, [](const auto& path) { read_mot_file(path, MotKind::kDetections); });
