@@ -25,7 +25,7 @@ const std::map<std::string, Folders> kAllowed = {
      {"tracker/filters", "sensors/detection.hpp", "sim/portable_math.hpp"}},
     {"sensors/detection.hpp", {"sensors/field_of_view.hpp", "sensors/measurement.hpp"}},
     {"sensors/field_of_view.hpp", {}},
-    {"sensors", {"sim/truth.hpp", "sim/random.hpp", "sim/portable_math.hpp"}},
+    {"sensors", {"sim/plane.hpp", "sim/truth.hpp", "sim/random.hpp", "sim/portable_math.hpp"}},
     {"scenes/schema", {"sim", "sensors", "tracker"}},
     {"tools/record", {"sim/truth.hpp", "sensors", "tracker", "scenes/schema/utf8.hpp"}},
     {"tools/data", {"tools/record", "scenes/schema/diagnostic.hpp", "sensors"}},
