@@ -20,10 +20,40 @@ constexpr std::size_t kFewestFields = 6;
 constexpr std::size_t kMostFields = 10;
 constexpr std::size_t kTruthFields = 9;  // of ground truth with categories
 
+using Values = std::array<double, kMostFields>;
+
+/// What the rows of a file must keep to.
+struct MotRules {
+  MotKind kind;
+  std::int32_t last_frame;
+
+  bool allows_frame(double value) const {
+    const std::optional<std::int64_t> frame = as_whole(value);
+    return frame && *frame >= 1 && *frame <= last_frame;
+  }
+};
+
+/// The row that so many values make; absent if they make none.
+std::optional<MotRow> row_of(const Values& values, std::size_t count, const MotRules& rules) {
+  const std::optional<std::int64_t> id = as_whole(values[1]);
+  const bool has_area = values[4] > 0.0 && values[5] > 0.0;
+  if (!rules.allows_frame(values[0]) || !id || !has_area) return std::nullopt;
+  MotRow row{.frame = static_cast<std::int32_t>(values[0]),
+             .id = *id,
+             .left = values[2],
+             .top = values[3],
+             .width = values[4],
+             .height = values[5]};
+  if (count > kFewestFields) row.confidence = values[6];
+  if (rules.kind != MotKind::kDetections && count == kTruthFields) {
+    row.category = static_cast<std::int32_t>(std::clamp(values[7], -1.0, 1e6));
+  }
+  return row;
+}
+
 /// Turns the fields of a line into a row, or reports what is wrong with it.
-std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, MotKind kind,
-                                std::optional<std::int32_t> last_frame, std::int64_t line,
-                                Findings& findings) {
+std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, const MotRules& rules,
+                                std::int64_t line, Findings& findings) {
   if (fields.size() < kFewestFields || fields.size() > kMostFields) {
     findings.add(line, fmt::format("{} fields; a row has frame,id,left,top,width,height and up to "
                                    "{} fields in all",
@@ -32,7 +62,7 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, Mot
   }
   constexpr std::array<std::string_view, kMostFields> kNames = {
       "frame", "id", "left", "top", "width", "height", "conf", "x", "y", "z"};
-  std::array<double, kMostFields> values{};
+  Values values{};
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::optional<double> value = parse_number(fields[i]);
     if (!value) {
@@ -42,34 +72,18 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, Mot
     }
     values[i] = *value;
   }
-  const std::optional<std::int64_t> frame = as_whole(values[0]);
-  const std::int32_t last = last_frame.value_or(std::numeric_limits<std::int32_t>::max());
-  if (!frame || *frame < 1 || *frame > last) {
+  const std::optional<MotRow> row = row_of(values, fields.size(), rules);
+  if (row) return row;
+  if (!rules.allows_frame(values[0])) {
     findings.add(line, fmt::format("frame {} is not a whole number from 1 to {}",
-                                   in_quotes(fields[0]), last));
-    return std::nullopt;
-  }
-  const std::optional<std::int64_t> id = as_whole(values[1]);
-  if (!id) {
+                                   in_quotes(fields[0]), rules.last_frame));
+  } else if (!as_whole(values[1])) {
     findings.add(line, fmt::format("id {} is not a whole number", in_quotes(fields[1])));
-    return std::nullopt;
-  }
-  if (!(values[4] > 0.0) || !(values[5] > 0.0)) {
+  } else {
     findings.add(line, fmt::format("width {} and height {} must be above 0", in_quotes(fields[4]),
                                    in_quotes(fields[5])));
-    return std::nullopt;
   }
-  MotRow row{.frame = static_cast<std::int32_t>(*frame),
-             .id = *id,
-             .left = values[2],
-             .top = values[3],
-             .width = values[4],
-             .height = values[5]};
-  if (fields.size() > kFewestFields) row.confidence = values[6];
-  if (kind != MotKind::kDetections && fields.size() == kTruthFields) {
-    row.category = static_cast<std::int32_t>(std::clamp(values[7], -1.0, 1e6));
-  }
-  return row;
+  return std::nullopt;
 }
 
 /// "frame,id,bb_left,bb_top,…", as some tools put above the rows.
@@ -83,21 +97,25 @@ bool is_header(const std::vector<std::string_view>& fields) {
 /// Understands the lines of a file, the first of which may be a header.
 class MotParser {
  public:
-  MotParser(MotKind kind, std::optional<std::int32_t> last_frame)
-      : kind_(kind), last_frame_(last_frame) {}
+  explicit MotParser(MotRules rules) : rules_(rules) {}
 
   std::optional<MotRow> operator()(std::string_view line, std::int64_t number,
                                    Findings& findings) {
+    Values values{};
+    const std::size_t count = plain_numbers(line, values);
+    if (count >= kFewestFields) {
+      if (first_ == 0) first_ = number;
+      if (const auto row = row_of(values, count, rules_)) return row;
+    }
     if (line.find_first_not_of(" \t") == std::string_view::npos) return std::nullopt;
     split_fields(line, fields_, owned_);
     if (first_ == 0) first_ = number;
     if (number == first_ && is_header(fields_)) return std::nullopt;
-    return parse_row(fields_, kind_, last_frame_, number, findings);
+    return parse_row(fields_, rules_, number, findings);
   }
 
  private:
-  MotKind kind_;
-  std::optional<std::int32_t> last_frame_;
+  MotRules rules_;
   std::int64_t first_ = 0;  // line that is not empty
   std::vector<std::string_view> fields_;
   std::vector<std::string> owned_;
@@ -130,7 +148,8 @@ struct MotReader::State {
         is_kitti(looks_like_kitti_file(path)),
         frames(
             path.string(),
-            [this, parse = MotParser(kind, last_frame)](
+            [this, parse = MotParser({kind, last_frame.value_or(
+                       std::numeric_limits<std::int32_t>::max())})](
                 std::string_view line, std::int64_t number,
                 Findings& findings) mutable -> std::optional<FileRow<MotRow>> {
               const auto row = is_kitti ? labelled_box(line, number, findings)
@@ -210,12 +229,21 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
 }
 
 void append_mot_row(std::string& text, const MotRow& row) {
-  fmt::format_to(std::back_inserter(text), "{},{}", row.frame, row.id);
+  const auto append = [&](const fmt::format_int& whole) { text.append(whole.data(), whole.size()); };
+  append(fmt::format_int(row.frame));
+  text += ',';
+  append(fmt::format_int(row.id));
   for (const double value : {row.left, row.top, row.width, row.height}) {
     text += ',';
     append_hundredths(text, value);
   }
-  fmt::format_to(std::back_inserter(text), ",{},-1,-1,-1\n", row.confidence);
+  text += ',';
+  if (row.confidence == 1.0) {  // as of every track
+    text += '1';
+  } else {
+    fmt::format_to(std::back_inserter(text), "{}", row.confidence);
+  }
+  text += ",-1,-1,-1\n";
 }
 
 SequenceInfo read_sequence_info(const std::filesystem::path& path) {

@@ -150,34 +150,36 @@ std::string_view take_quoted(std::string_view& line, std::vector<std::string>& o
   return owned.emplace_back(std::move(value));
 }
 
-/// A number of at most 15 digits without exponent, which one exact division makes exact (Clinger
-/// 1990); absent if the text is anything else. Almost every cell of a table is one.
-std::optional<double> short_decimal(std::string_view text, char point) {
+/// Takes a number of at most 15 digits without exponent off a text, which one exact division makes
+/// exact (Clinger 1990). Almost every cell of a table is one.
+/// @returns where it ends; null if the text starts with anything else
+const char* take_short_decimal(const char* at, const char* end, char point, double& value) {
   constexpr double kPowers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  const bool negative = text.starts_with('-');
-  std::size_t i = negative ? 1 : 0;
-  const std::size_t length = text.size() - i;
-  if (length == 0 || length > 16) return std::nullopt;
-  std::int64_t digits = 0;
-  std::size_t count = 0;
-  std::size_t decimals_from = 0;  // how many digits stand before the point, plus 1; 0: no point yet
-  for (; i < text.size(); ++i) {
-    const auto digit = static_cast<unsigned>(text[i] - '0');
-    if (digit <= 9) {
+  std::uint64_t digits = 0;
+  const auto take_digits = [&] {
+    const char* const begin = at;
+    for (; at != end; ++at) {
+      const auto digit = static_cast<unsigned>(*at - '0');
+      if (digit > 9) break;
       digits = 10 * digits + digit;
-      ++count;
-    } else if (text[i] == point && decimals_from == 0) {
-      decimals_from = count + 1;
-    } else {
-      return std::nullopt;
     }
+    return at - begin;
+  };
+  const bool negative = at != end && *at == '-';
+  if (negative) ++at;
+  std::ptrdiff_t count = take_digits();
+  std::ptrdiff_t decimals = 0;
+  if (at != end && *at == point) {
+    ++at;
+    decimals = take_digits();
+    count += decimals;
   }
-  if (count == 0 || count > 15) return std::nullopt;
-  const double whole = static_cast<double>(digits);
-  const double value =
-      decimals_from == 0 ? whole : whole / kPowers[count - (decimals_from - 1)];
-  return negative ? -value : value;
+  if (count == 0 || count > 15) return nullptr;
+  value = static_cast<double>(static_cast<std::int64_t>(digits));
+  if (decimals > 0) value /= kPowers[decimals];
+  if (negative) value = -value;
+  return at;
 }
 
 }  // namespace
@@ -256,7 +258,11 @@ bool is_text(std::string_view text) {
 }
 
 std::optional<double> parse_number(std::string_view text, char point) {
-  if (const auto value = short_decimal(text, point)) return value;
+  const char* const text_end = text.data() + text.size();
+  double value = 0.0;
+  if (take_short_decimal(text.data(), text_end, point, value) == text_end && !text.empty()) {
+    return value;
+  }
   if (point != '.') {
     if (text.find('.') != std::string_view::npos) return std::nullopt;
     std::string with_point(text);
@@ -264,12 +270,23 @@ std::optional<double> parse_number(std::string_view text, char point) {
     return parse_number(with_point);
   }
   if (text.starts_with('+') && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
+  const auto [end, error] = std::from_chars(text.data(), text_end, value);
+  if (error != std::errc() || end != text_end || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::size_t plain_numbers(std::string_view line, std::span<double> numbers) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  for (std::size_t count = 0; count < numbers.size();) {
+    while (at != end && is_blank(*at)) ++at;
+    at = take_short_decimal(at, end, '.', numbers[count]);
+    if (at == nullptr) return 0;
+    ++count;
+    if (at == end) return count;
+    if (*at++ != ',') return 0;
+  }
+  return 0;
 }
 
 std::optional<std::int64_t> parse_whole(std::string_view text) {
@@ -278,8 +295,10 @@ std::optional<std::int64_t> parse_whole(std::string_view text) {
 }
 
 std::optional<std::int64_t> as_whole(double value) {
-  if (std::trunc(value) != value || std::abs(value) > kLargestWhole) return std::nullopt;
-  return static_cast<std::int64_t>(value);
+  if (!(std::abs(value) <= kLargestWhole)) return std::nullopt;
+  const auto whole = static_cast<std::int64_t>(value);
+  if (static_cast<double>(whole) != value) return std::nullopt;
+  return whole;
 }
 
 void append_hundredths(std::string& text, double value) {

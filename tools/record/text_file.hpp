@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,12 @@ bool is_text(std::string_view text);
 /// The finite number that makes up the whole text; absent if it is anything else.
 /// @param point  what stands before the decimals: '.' or ','
 std::optional<double> parse_number(std::string_view text, char point = '.');
+
+/// The numbers of a line of nothing but commas, blanks before numbers, and numbers of few digits, as
+/// almost every line of a table of numbers is: what split_fields() and parse_number() would make of
+/// it, for a fraction of their work.
+/// @returns how many there are; 0 if the line is any other, or has more than there is room for
+std::size_t plain_numbers(std::string_view line, std::span<double> numbers);
 
 /// The whole number, in the range of an identity, that makes up the text; 3 and 3.0 are the same.
 std::optional<std::int64_t> parse_whole(std::string_view text);

@@ -21,16 +21,15 @@ namespace {
 constexpr std::size_t kBlock = std::size_t{1} << 18;
 constexpr int kPatience = 2000;  // how long a named pipe may be without a writer [ms]
 
-/// Whether all bytes are printable ASCII, tabs or line ends. Branchless, so that compilers
-/// vectorise it.
+/// Whether all bytes are printable ASCII, tabs or line ends. Branchless and in bytes alone, so that
+/// compilers vectorise it, sixteen bytes at a time.
 bool all_plain(const char* bytes, std::size_t count) {
-  unsigned odd = 0;
+  std::uint8_t odd = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto c = static_cast<unsigned char>(bytes[i]);
-    const unsigned printable = static_cast<unsigned>(c - 0x20U < 0x5fU);
-    const unsigned blank = static_cast<unsigned>(c == '\n') | static_cast<unsigned>(c == '\r') |
-                           static_cast<unsigned>(c == '\t');
-    odd |= (printable | blank) ^ 1U;
+    const auto c = static_cast<std::uint8_t>(bytes[i]);
+    const bool is_printable = static_cast<std::uint8_t>(c - 0x20) < 0x5f;
+    const bool is_plain = is_printable | (c == '\n') | (c == '\r') | (c == '\t');
+    odd = static_cast<std::uint8_t>(odd | (is_plain ? 0 : 1));
   }
   return odd == 0;
 }

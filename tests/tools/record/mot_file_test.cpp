@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/tools/record/message_of.hpp"
@@ -268,6 +269,27 @@ TEST(TextFile, ParsesNumbersStrictly) {
   }
   EXPECT_EQ(parse_whole("3.0"), 3);
   EXPECT_FALSE(parse_whole("1e300").has_value());
+}
+
+// Property: the short way through a line sees what fields that are split and read one by one say, and
+// leaves what it does not understand to them.
+TEST(TextFile, ReadsPlainNumbersAsItReadsFields) {
+  std::array<double, 4> room{};
+  for (const std::string line :
+       {"1,-2,3.25,0.1", " 7,\t008, -.5,5.", "-0,123456789012345,1234567.12345678,0.00000000000001"}) {
+    std::vector<std::string_view> fields;
+    std::vector<std::string> owned;
+    split_fields(line, fields, owned);
+    ASSERT_EQ(plain_numbers(line, room), fields.size()) << line;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      EXPECT_EQ(room[i], parse_number(fields[i])) << line;
+      EXPECT_EQ(std::signbit(room[i]), std::signbit(*parse_number(fields[i]))) << line;
+    }
+  }
+  for (const char* line : {"", "1,", ",1", "1,2 ", "1;2", "1,\"2\"", "1,+2", "1,2e3", "1,nan", "1,--2",
+                           "1,.", "1,-", "1,2,3,4,5", "1,1234567890123456", "1\t2"}) {
+    EXPECT_EQ(plain_numbers(line, room), 0U) << line;
+  }
 }
 
 }  // namespace
