@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <variant>
@@ -272,10 +273,15 @@ double expected_length(const Vec2& mean, const Eigen::Matrix2d& covariance) {
   if (!(scale > 0.0)) return 0.0;
   // With t = e^u / scale the integrand falls as e^(-|u| / 2): trapezoids in u converge quickly.
   constexpr double kStep = 1.0;
-  constexpr double kFarthest = 18.0;
+  constexpr int kFarthest = 18;  // steps from 0
+  static const std::array<double, 2 * kFarthest + 1> powers = [] {
+    std::array<double, 2 * kFarthest + 1> all{};
+    for (int i = -kFarthest; i <= kFarthest; ++i) all[i + kFarthest] = portable::exp(i * kStep);
+    return all;
+  }();
   double sum = 0.0;
-  for (double u = -kFarthest; u <= kFarthest; u += kStep) {
-    const double t = portable::exp(u) / scale;
+  for (const double power : powers) {
+    const double t = power / scale;
     const Eigen::Array2d widened = 1.0 + 2.0 * t * variance;
     const double kept = portable::exp(-(t * squared / widened).sum()) / std::sqrt(widened.prod());
     sum += (1.0 - kept) / std::sqrt(t);
