@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <utility>
 
 #include "sim/random.hpp"
 
@@ -48,7 +47,7 @@ void Following::update(const StepRecord& record) {
   const std::vector<const TruthState*> state_of = states_by_id(record.truth, objects_);
   const Scan& scan = record.observation.scan;
   const auto sensor = static_cast<std::size_t>(scan.sensor);
-  std::unordered_map<int, Followed> now;
+  ++scan_;
   for (const TrackEstimate& track : record.tracks.tracks) {
     const auto before = followed_.find(track.id);
     const bool is_known = before != followed_.end();
@@ -57,24 +56,24 @@ void Following::update(const StepRecord& record) {
     if (!object) continue;
     const TruthState* const truth = state_of.at(static_cast<std::size_t>(*object));
     if (truth == nullptr) continue;
-    Followed followed{*object, {}};
-    if (is_known) followed.error = std::move(before->second.error);
-    if (theory_) {
-      std::optional<SensedDetection> used;
-      if (track.detection) {
-        used.emplace(SensedDetection{theory_->sensors[sensor], errors_[sensor],
-                                     scan.detections.at(*track.detection)});
-      }
-      if (followed.error) {
-        followed.error->advance(*truth, scan.time, used);
-      } else if (!is_known && used) {
-        const Filter& fresh = theory_->design.filter_for(used->detection.label, scan.sensor);
-        followed.error.emplace(fresh, *truth, *used, scan.time, key_of(used->detection.position));
-      }
+    Followed& followed = is_known ? before->second : followed_[track.id];
+    followed.object = *object;
+    followed.scan = scan_;
+    if (!theory_) continue;
+    std::optional<SensedDetection> used;
+    if (track.detection) {
+      used.emplace(SensedDetection{theory_->sensors[sensor], errors_[sensor],
+                                   scan.detections.at(*track.detection)});
     }
-    now.emplace(track.id, std::move(followed));
+    if (followed.error) {
+      followed.error->advance(*truth, scan.time, used);
+    } else if (!is_known && used) {
+      const Filter& fresh = theory_->design.filter_for(used->detection.label, scan.sensor);
+      followed.error = std::make_unique<ExpectedError>(fresh, *truth, *used, scan.time,
+                                                       key_of(used->detection.position));
+    }
   }
-  followed_ = std::move(now);
+  std::erase_if(followed_, [this](const auto& entry) { return entry.second.scan != scan_; });
 }
 
 void Following::lose_count() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -45,12 +47,14 @@ class Following {
  private:
   struct Followed {
     ObjectId object = 0;
-    std::optional<ExpectedError> error;
+    std::int64_t scan = 0;                 // the latest in which the track was there
+    std::unique_ptr<ExpectedError> error;  // large, and absent where nothing is expected
   };
 
   std::size_t objects_;
   std::optional<FilterTheory> theory_;
   std::vector<std::vector<ErrorPart>> errors_;  // by Scan::sensor; none if they have no variance
+  std::int64_t scan_ = 0;                       // counts them
   std::unordered_map<int, Followed> followed_;  // by live track
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -28,7 +29,7 @@ double effective_count(std::int64_t values, double memory) {
 /// The 95 % interval of a root mean square that shadows tell: Student's, on the scale of the
 /// logarithm. @param sums  of squares over so many scans, by shadow
 std::optional<Interval> rms_interval(
-    const std::array<ExpectedError::Value::Shadow, ExpectedError::kShadows>& sums,
+    std::span<const ExpectedError::Value::Shadow> sums,
     std::int64_t scans, double ExpectedError::Value::Shadow::*part) {
   constexpr auto kCount = static_cast<double>(ExpectedError::kShadows);
   double centre = 0.0, scatter = 0.0;
@@ -162,7 +163,7 @@ void RunMetrics::follow(const TruthState& truth, const TrackEstimate& track,
 void RunMetrics::lose(ObjectTally& tally) const {
   if (tally.followed) ++tally.track_losses;
   tally.followed = false;
-  tally.doubtful.clear();
+  tally.doubtful = std::vector<ScanScore>();
   tally.doubtful_known.clear();
   if (tally.calm_scans < kCalmScans) tally.calm_scans = 0;
 }
@@ -265,6 +266,7 @@ void RunMetrics::count(ObjectTally& tally, const ScanScore& score) const {
     tally.predicted_square += score.expected->position_square();
     tally.predicted_velocity_square += score.expected->velocity_square();
     tally.shadows_tell = tally.shadows_tell || score.expected->shadows;
+    tally.predicted_by_shadows.resize(ExpectedError::kShadows);
     for (std::size_t i = 0; i < ExpectedError::kShadows; ++i) {
       const auto& shadows = score.expected->shadows;
       auto& [position, velocity] = tally.predicted_by_shadows[i];
@@ -302,7 +304,7 @@ void RunMetrics::count(ObjectTally& tally, const ScanScore& score) const {
 
 void RunMetrics::count_doubtful(ObjectTally& tally) const {
   for (const ScanScore& score : tally.doubtful) count(tally, score);
-  tally.doubtful.clear();
+  tally.doubtful = std::vector<ScanScore>();  // of many objects, most in doubt at some time
   for (const double square : tally.doubtful_known) tally.squared_known_error.add(square);
   tally.doubtful_known.clear();
 }

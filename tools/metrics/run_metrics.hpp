@@ -182,7 +182,7 @@ class RunMetrics final : public RunObserver {
     double predicted_velocity_square = 0.0;  // known
     double predicted_lag = 0.0;
     std::int64_t expected_scans = 0;
-    std::array<ExpectedError::Value::Shadow, ExpectedError::kShadows> predicted_by_shadows{};
+    std::vector<ExpectedError::Value::Shadow> predicted_by_shadows;  // once something is expected
     bool shadows_tell = false;
     double predicted_innovation = 0.0;
     double predicted_nis = 0.0;
