@@ -158,6 +158,8 @@ Observation observe(const SensorConfig& sensor, int sensor_index, std::int64_t s
   });
   Observation observation{.scan = {.time = truth.time, .sensor = sensor_index, .detections = {}},
                           .origins = {}};
+  observation.scan.detections.reserve(sightings.size());
+  observation.origins.reserve(sightings.size());
   for (Sighting& sighting : sightings) {
     observation.scan.detections.push_back(std::move(sighting.detection));
     observation.origins.push_back(sighting.origin);

@@ -635,6 +635,7 @@ World::World(const WorldConfig& config, std::uint64_t seed)
   std::map<std::string_view, std::size_t> indices;
   for (std::size_t i = 0; i < targets.size(); ++i) indices.emplace(targets[i].name, i);
   scenery.states.resize(targets.size());
+  scenery.movers.reserve(targets.size());
   std::size_t parts = 0;
   for (const Target& target : targets) {
     const Mover& mover = scenery.movers.emplace_back(target, scenery.environment);
