@@ -51,7 +51,7 @@ struct Pass {
 };
 
 /// What may be the result.
-struct Candidate {
+struct Proposal {
   Parameters parameters;
   Pass pass;
   std::map<std::string, LearnedClass> classes;
@@ -145,20 +145,20 @@ class Learner {
   }
 
   LearnedTracker run() {
-    Candidate best = at_constant_velocity();
+    Proposal best = at_constant_velocity();
     if (gives_filters() || best.pass.paths.empty()) return result(best);
     // What leaves a filter of constant velocity is lost there; a bank holds it.
-    std::vector<Candidate> candidates;
+    std::vector<Proposal> candidates;
     candidates.push_back(with_bank(best.parameters));
     if (!candidates.front().pass.paths.empty()) {
-      Candidate chosen = candidates.front();
+      Proposal chosen = candidates.front();
       chosen.parameters = refined(chosen.parameters, chosen.pass, true);
       choose_filters(chosen);
       chosen.pass = track(chosen.parameters);
       candidates.push_back(std::move(chosen));
     }
     if (!choose_filters(best)) best.pass = track(best.parameters);
-    for (Candidate& candidate : candidates) {
+    for (Proposal& candidate : candidates) {
       if (merit(candidate.pass) > merit(best.pass) + kClearlyBetter) best = std::move(candidate);
     }
     return result(best);
@@ -188,8 +188,8 @@ class Learner {
     return pass.log_likelihood - static_cast<double>(pass.paths.size()) * portable::log(scans);
   }
 
-  Candidate with_bank(const Parameters& usual) {
-    Candidate candidate{usual, {}, {}};
+  Proposal with_bank(const Parameters& usual) {
+    Proposal candidate{usual, {}, {}};
     const Learned& density = usual.motion.process_density.at(kAnyClass);
     const FilterConfig filter = bank(density.value, usual.motion.initial_speed, interval_);
     candidate.parameters.filters = {{kAnyClass, filter}};
@@ -202,8 +202,8 @@ class Learner {
   }
 
   /// Refines the numbers from pass to pass, with filters of constant velocity or those given.
-  Candidate at_constant_velocity() {
-    Candidate best;
+  Proposal at_constant_velocity() {
+    Proposal best;
     Parameters now = begin();
     best.parameters = now;
     for (int i = 0; i < kMostPasses; ++i) {
@@ -487,7 +487,7 @@ class Learner {
     return greatest;
   }
 
-  LearnedTracker result(const Candidate& best) {
+  LearnedTracker result(const Proposal& best) {
     const auto& [p, pass, classes] = best;
     LearnedTracker learned;
     learned.config = config_;
@@ -529,7 +529,7 @@ class Learner {
 
   /// Gives each class that shows enough tracks a filter of its own, and one to the rest.
   /// @return whether all are of constant velocity, with the process noise that they had
-  bool choose_filters(Candidate& candidate) const {
+  bool choose_filters(Proposal& candidate) const {
     const auto paths = by_class(candidate.pass.paths);
     LearnedMotion& motion = candidate.parameters.motion;
     const Learned any = motion.process_density.at(kAnyClass);
