@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <limits>
 #include <utility>
+#include <variant>
 
 #include "sim/portable_math.hpp"
 
@@ -49,11 +50,10 @@ Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
 }  // namespace
 
 ImmFilter::ImmFilter(std::vector<Mode> modes, double switching)
-    : modes_(std::move(modes)), switching_(switching) {
-  if (modes_.empty()) throw std::invalid_argument("interacting models need at least one filter");
-  if (!(switching >= 0.0 && switching <= 0.5)) {
-    throw std::invalid_argument("the probability of changing the model must lie in [0, 0.5]");
-  }
+    : modes_(std::move(modes)),
+      chain_(modes_.size(), switching,
+             modes_.empty() ? 1.0 : modes_.front().filter.nominal_interval(),
+             modes_.empty() ? 1.0 : modes_.front().filter.sigma()) {
   for (Mode& mode : modes_) mode.weight = 1.0 / static_cast<double>(modes_.size());
 }
 
@@ -66,6 +66,8 @@ bool ImmFilter::start(const Vector& z, const Matrix& covariance) {
     mode.weight = 1.0 / static_cast<double>(modes_.size());
   }
   residual_.reset();
+  chain_.start(widest_variance());
+  measured_.clear();
   leader_ = 0;
   updates_ = 1;
   misses_ = 0;
@@ -74,14 +76,21 @@ bool ImmFilter::start(const Vector& z, const Matrix& covariance) {
   return true;
 }
 
-/// Mixes the modes for a step of dt, and gives them the weights c_j.
-void ImmFilter::mix(double dt) {
-  const auto m = static_cast<double>(modes_.size());
-  if (modes_.size() == 1 || switching_ == 0.0) return;
-  // The chain's transition matrix to the power dt / T: all its other eigenvalues are equal.
-  const double decay = portable::pow(1.0 - switching_ * m / (m - 1.0), dt / nominal_interval());
-  const double leave = (1.0 - decay) / m;
-  const double stay = decay + leave;
+/// The largest variance that a mode takes the position to have.
+double ImmFilter::widest_variance() const {
+  double widest = 0.0;
+  for (const Mode& mode : modes_) {
+    widest = std::max(widest, mode.filter.innovation_covariance(Matrix::Zero()).trace());
+  }
+  return widest;
+}
+
+/// Mixes the modes by the transitions of the chain that are due, and gives them the weights c_j.
+void ImmFilter::mix() {
+  const double leaving = chain_.leaving();
+  if (leaving == 0.0) return;
+  const double stay = 1.0 - leaving;
+  const double leave = leaving / (static_cast<double>(modes_.size()) - 1.0);
 
   std::vector<double> arrived(modes_.size());
   std::vector<Lifted> mixtures;
@@ -118,9 +127,16 @@ bool ImmFilter::predict(double dt) {
   }
   if (!is_started()) return true;
   ImmFilter next = *this;
-  next.mix(dt);
-  const bool all = std::all_of(next.modes_.begin(), next.modes_.end(),
-                               [&](Mode& mode) { return mode.filter.predict(dt); });
+  if (measured_.empty()) {
+    next.measured_ = modes_;
+  } else {
+    next.modes_ = measured_;
+  }
+  next.chain_.predict(dt);
+  next.mix();
+  const bool all = std::all_of(next.modes_.begin(), next.modes_.end(), [&](Mode& mode) {
+    return mode.filter.predict(next.chain_.elapsed());
+  });
   next.combine();
   if (!all || !next.is_finite()) {
     ++refusals_.times;
@@ -149,6 +165,11 @@ bool ImmFilter::update(const Measurement& measured) {
   const bool all = std::all_of(next.modes_.begin(), next.modes_.end(),
                                [&](Mode& mode) { return mode.filter.update(measured); });
   if (all) next.weigh();
+  const bool is_position = std::holds_alternative<PositionModel>(measured.model);
+  next.chain_.update(next.widest_variance(), is_position
+                                                 ? measured.r.trace()
+                                                 : std::numeric_limits<double>::infinity());
+  next.measured_.clear();
   next.combine();
   if (!all || !next.is_finite()) {
     ++refusals_.measurements;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tracker/filters/mode_chain.hpp"
 #include "tracker/filters/motion_filter.hpp"
 
 namespace ghtrack {
@@ -16,9 +17,10 @@ namespace ghtrack {
 ///             P_0j = Σ μ_i|j (P_i + (x_i − x_0j)(x_i − x_0j)ᵀ)
 ///   filters   each mode from its own mixture, with likelihood Λ_j = N(r_j; 0, S_j)
 ///   weighs    μ_j ∝ c_j Λ_j
-/// and combines the modes to one mean and covariance. Modes may have different states: what mode i
-/// does not know of mode j's state, mode j keeps of its own (unbiased mixing, Yuan, Han, Duan & Lei
-/// 2012).
+/// and combines the modes to one mean and covariance; when modes are mixed, see ModeChain. A
+/// prediction starts at the last measurement, however many predictions have been made since: time
+/// is the same however it is cut. Modes may have different states: what mode i does not know of
+/// mode j's state, mode j keeps of its own (unbiased mixing, Yuan, Han, Duan & Lei 2012).
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
 /// leave the filter as it was.
@@ -76,13 +78,15 @@ class ImmFilter {
   double log_likelihood() const { return log_likelihood_; }
 
  private:
-  void mix(double dt);
+  void mix();
   void weigh();
+  double widest_variance() const;
   void combine();
   bool is_finite() const { return estimate_.is_finite() && covariance_.allFinite(); }
 
   std::vector<Mode> modes_;
-  double switching_;
+  std::vector<Mode> measured_;  // the modes after the last measurement, if predicted since
+  ModeChain chain_;
   std::size_t leader_ = 0;
   Kinematics<2> prior_;
   Kinematics<2> estimate_;

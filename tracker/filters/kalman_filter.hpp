@@ -15,7 +15,7 @@ namespace ghtrack {
 /// What a Kalman filter assumes.
 struct KalmanModel {
   double sigma = 1.0;     // of a measurement, per axis, unless an update says otherwise [m]
-  double interval = 1.0;  // nominal time between updates [s], for the steady gains only
+  double interval = 1.0;  // nominal time between updates [s], of the steady gains
   ProcessModel process_model = ProcessModel::kPiecewiseConstant;
   double process_intensity = 1.0;     // see process_noise()
   double renewal = std::numeric_limits<double>::infinity();  // see process_noise() [s]

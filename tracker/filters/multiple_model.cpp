@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "sim/portable_math.hpp"
@@ -28,14 +27,25 @@ double log_likelihood(const SingleFilter& filter, const Eigen::Vector2d& z,
   return -0.5 * (nis + portable::log(s.determinant()));
 }
 
+double interval_of(const SingleFilter& filter) {
+  return std::visit([](const auto& f) { return f.nominal_interval(); }, filter);
+}
+
+double sigma_of(const SingleFilter& filter) {
+  return std::visit([](const auto& f) { return f.sigma(); }, filter);
+}
+
+double staying(const MultipleModelFilter::Model& model, double leaving) {
+  return (1.0 - leaving) * model.weight;
+}
+
 }  // namespace
 
 MultipleModelFilter::MultipleModelFilter(std::vector<Model> models, double switching)
-    : models_(std::move(models)), switching_(switching) {
-  if (models_.empty()) throw std::invalid_argument("multiple models need at least one filter");
-  if (!(switching >= 0.0 && switching <= 0.5)) {
-    throw std::invalid_argument("the probability of changing the model must lie in [0, 0.5]");
-  }
+    : models_(std::move(models)),
+      chain_(models_.size(), switching,
+             models_.empty() ? 1.0 : interval_of(models_.front().filter),
+             models_.empty() ? 1.0 : sigma_of(models_.front().filter)) {
   share_weights();
 }
 
@@ -52,13 +62,9 @@ const Gains& MultipleModelFilter::steady_gains() const {
                     leader().filter);
 }
 
-double MultipleModelFilter::nominal_interval() const {
-  return std::visit([](const auto& f) { return f.nominal_interval(); }, leader().filter);
-}
+double MultipleModelFilter::nominal_interval() const { return interval_of(leader().filter); }
 
-double MultipleModelFilter::sigma() const {
-  return std::visit([](const auto& f) { return f.sigma(); }, leader().filter);
-}
+double MultipleModelFilter::sigma() const { return sigma_of(leader().filter); }
 
 bool MultipleModelFilter::start(const Vector& z, const Matrix& covariance) {
   bool started = true;
@@ -70,12 +76,16 @@ bool MultipleModelFilter::start(const Vector& z, const Matrix& covariance) {
     return false;
   }
   share_weights();
+  chain_.start(widest_variance());
   leader_ = 0;
   return true;
 }
 
 bool MultipleModelFilter::predict(double dt) {
-  if (is_started() && dt > 0.0 && std::isfinite(dt)) follow_the_leader();
+  if (is_started() && dt > 0.0 && std::isfinite(dt)) {
+    if (chain_.elapsed() == 0.0 && chain_.is_due()) follow_the_leader();
+    chain_.predict(dt);
+  }
   bool predicted = false;
   for (Model& model : models_) {
     predicted = std::visit([dt](auto& f) { return f.predict(dt); }, model.filter) || predicted;
@@ -97,6 +107,7 @@ bool MultipleModelFilter::update(const Vector& z, const Matrix& covariance) {
     models_[i].weight = weights[i];
   }
   if (!used) ++refusals_.measurements;
+  chain_.update(widest_variance(), covariance.trace());
   elect();
   return used;
 }
@@ -155,16 +166,27 @@ Eigen::Matrix2d MultipleModelFilter::covariance() const {
 }
 
 /// Weight that a model gets from those that the target gives up.
-double MultipleModelFilter::arriving(const Model& model) const {
+double MultipleModelFilter::arriving(const Model& model, double leaving) const {
   if (models_.size() == 1) return 0.0;
-  return switching_ * (1.0 - model.weight) / static_cast<double>(models_.size() - 1);
+  return leaving * (1.0 - model.weight) / static_cast<double>(models_.size() - 1);
+}
+
+/// The largest variance that a model takes the position to have.
+double MultipleModelFilter::widest_variance() const {
+  double widest = 0.0;
+  for (const Model& model : models_) {
+    widest = std::max(widest, innovation_covariance_of(model.filter, Matrix::Zero()).trace());
+  }
+  return widest;
 }
 
 void MultipleModelFilter::follow_the_leader() {
   const Knowledge<2> known =
       std::visit([](const auto& f) { return f.knowledge(); }, leader().filter);
+  const double left = chain_.has_left();
   for (std::size_t i = 0; i < models_.size(); ++i) {
-    if (i == leader_ || arriving(models_[i]) <= staying(models_[i])) continue;
+    const Model& model = models_[i];
+    if (i == leader_ || arriving(model, left) <= staying(model, left)) continue;
     std::visit([&](auto& f) { f.adopt(known); }, models_[i].filter);
   }
 }
@@ -180,9 +202,11 @@ std::vector<double> MultipleModelFilter::weights_after(const Vector& z,
     weights.push_back(log_likelihood(model.filter, z, covariance));
   }
   const double best = *std::max_element(weights.begin(), weights.end());
+  const double leaving = chain_.leaving();
   double sum = 0.0;
   for (std::size_t i = 0; i < models_.size(); ++i) {
-    weights[i] = (staying(models_[i]) + arriving(models_[i])) * portable::exp(weights[i] - best);
+    const double prior = staying(models_[i], leaving) + arriving(models_[i], leaving);
+    weights[i] = prior * portable::exp(weights[i] - best);
     sum += weights[i];
   }
   const bool is_usable = sum > 0.0 && std::isfinite(sum);

@@ -9,6 +9,7 @@
 
 #include "tracker/filters/gain_filter.hpp"
 #include "tracker/filters/kalman_filter.hpp"
+#include "tracker/filters/mode_chain.hpp"
 #include "tracker/filters/motion_filter.hpp"
 
 namespace ghtrack {
@@ -22,10 +23,11 @@ using SingleFilter =
 /// a target that may change its model as in Bar-Shalom, Li & Kirubarajan 2001, ch. 11):
 ///   μ' = (1 − p) μ + p (1 − μ) / (M − 1)          before each measurement
 ///   μ ∝ μ' N(r; 0, S)                              with each filter's own r and S
-/// Before a prediction, a filter whose weight comes from the change (second term) rather than from
-/// its own past (first term) goes on from the leader's state: of the two pasts the likelier one is
-/// kept, where an interacting multiple model (Blom & Bar-Shalom 1988) would mix them, for which
-/// given gains have no rule.
+/// with p for the time since it was last done, see ModeChain. Then, before the next prediction, a
+/// filter whose weight comes from the change (second term) rather than from its own past (first
+/// term) goes on from the leader's state: of the two pasts the likelier one is kept, where an
+/// interacting multiple model (Blom & Bar-Shalom 1988) would mix them, for which given gains have
+/// no rule.
 ///
 /// The filter with the largest weight μ leads: its state is the estimate. What the others predict
 /// elsewhere is uncertainty: the covariance about the leader is Σ μ (P + d dᵀ), with d the distance
@@ -45,7 +47,7 @@ class MultipleModelFilter {
   };
 
   /// @param models     waiting for their first measurement; equally likely, whatever their weights
-  /// @param switching  p, probability that the target changes its model between two measurements
+  /// @param switching  p, probability that the target changes its model in one nominal interval
   /// @throws std::invalid_argument without a model, or unless 0 ≤ p ≤ 1/2
   MultipleModelFilter(std::vector<Model> models, double switching);
 
@@ -82,15 +84,15 @@ class MultipleModelFilter {
 
  private:
   Matrix covariance() const;
-  double arriving(const Model& model) const;
-  double staying(const Model& model) const { return (1.0 - switching_) * model.weight; }
+  double arriving(const Model& model, double leaving) const;
+  double widest_variance() const;
   void follow_the_leader();
   void share_weights();
   std::vector<double> weights_after(const Vector& z, const Matrix& covariance) const;
   void elect();
 
   std::vector<Model> models_;
-  double switching_;
+  ModeChain chain_;
   std::size_t leader_ = 0;
   Refusals refusals_;
 };

@@ -20,12 +20,14 @@ constexpr double kSigma = 0.5;
 constexpr double kStep = 0.1;
 
 MultipleModelFilter cruising_or_turning(double switching = 0.01) {
-  return MultipleModelFilter(
-      {{"cruising",
-        KalmanFilter<1, 2>({.sigma = kSigma, .process_intensity = 0.1, .initial_speed = 10.0})},
-       {"turning",
-        KalmanFilter<1, 2>({.sigma = kSigma, .process_intensity = 20.0, .initial_speed = 10.0})}},
-      switching);
+  const auto with_noise = [](double intensity) {
+    return KalmanFilter<1, 2>({.sigma = kSigma,
+                               .interval = kStep,
+                               .process_intensity = intensity,
+                               .initial_speed = 10.0});
+  };
+  return MultipleModelFilter({{"cruising", with_noise(0.1)}, {"turning", with_noise(20.0)}},
+                             switching);
 }
 
 /// Flies straight on, and from second 6 to second 9 in a circle of 20 m/s².

@@ -132,6 +132,22 @@ std::vector<FilterConfig> designs() {
           fastest, third, cv, ca};
 }
 
+/// Interacting filters and filters side by side.
+std::vector<FilterConfig> banks() {
+  ImmConfig white;
+  white.filters["steady"] = KalmanCvConfig{.model = process::WhiteNoise<1>{0.02}};
+  white.filters["nimble"] = KalmanCvConfig{.model = process::WhiteNoise<1>{50.0}};
+  ImmConfig mixed;
+  mixed.filters["straight"] = KalmanCvConfig{.model = process::WhiteNoise<1>{0.05}};
+  mixed.filters["turning"] = EkfConfig{.motion = CoordinatedTurn{}};
+  mixed.filters["speeding"] = KalmanCaConfig{.model = process::WhiteNoise<2>{1.0}};
+  MultipleModelConfig beside, given;
+  beside.filters = white.filters;
+  given.filters["steady"] = GhConfig{.design = gain_design::Manual<1>{0.2, 0.02}};
+  given.filters["nimble"] = GhConfig{.design = gain_design::Manual<1>{0.6, 0.3}};
+  return {ImmConfig{}, white, mixed, beside, given};
+}
+
 // Property: more measurements of the same motion are never worse than those of the better sensor
 // alone, whatever their times: rates that drift through each other, a rough sensor beside a fine
 // one, scans that nearly coincide. 5 %: four standard errors of the mean of some 10 000 squares
@@ -145,18 +161,47 @@ TEST(UnevenTimes, AreNoWorseThanTheBetterSensorAlone) {
       {fine, {1.0 / 3.0, 0.037, 2.0}},
       {fine, {0.1, 1e-5, 0.5}, {0.1, 0.0007, 0.5}},
       {fine, {0.5, 0.002, 0.5}},
-      {fine, {0.0173, 0.004, 5.0}}};
-  for (const FilterConfig& config : designs()) {
+      {fine, {0.0173, 0.004, 5.0}},
+      {fine, {0.0173, 0.004, 5e5}}};
+  const auto judge = [&](const FilterConfig& config, int tracks) {
+    const std::string name = gains_text(make_filter(config, fine.sigma, fine.period));
     for (const auto& company : companies) {
-      const std::string name = gains_text(make_filter(config, fine.sigma, fine.period));
-      const auto judge = [&](const auto& motion) {
-        const double alone = rmse(config, {fine}, motion, 40.0, 40, 5);
-        EXPECT_LT(rmse(config, company, motion, 40.0, 40, 5), 1.05 * alone)
+      const auto expect_help = [&](const auto& motion) {
+        const double alone = rmse(config, {fine}, motion, 40.0, tracks, 5);
+        EXPECT_LT(rmse(config, company, motion, 40.0, tracks, 5), 1.05 * alone)
             << name << " beside " << company[1].period << " " << company[1].sigma;
       };
-      judge(straight);
-      judge(winding);
+      expect_help(straight);
+      expect_help(winding);
     }
+  };
+  for (const FilterConfig& config : designs()) judge(config, 40);
+  for (const FilterConfig& config : banks()) judge(config, 20);
+}
+
+// Property: a prediction is the same in one step or in many, when nothing is measured between: by
+// other sensors that look elsewhere. Of a piecewise constant acceleration the middle of a step
+// knows no more than that it changes then, too.
+TEST(UnevenTimes, AreTheSameHoweverTheyAreCut) {
+  std::vector<FilterConfig> all = banks();
+  for (const FilterConfig& config : designs()) all.push_back(config);
+  for (const FilterConfig& config : all) {
+    Filter whole = make_filter(config, 0.5, 0.1);
+    std::mt19937_64 random(6);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 40; ++i) {
+      if (is_started(whole)) predict(whole, 0.1);
+      update(whole, {2.0 * i + 0.5 * normal(random), 0.3 * i * i + 0.5 * normal(random)});
+    }
+    Filter cut = whole;
+    predict(whole, 0.1);
+    for (const double dt : {0.004, 0.0173, 0.0173, 0.0614}) predict(cut, dt);
+    const std::string name = gains_text(whole);
+    EXPECT_LT((estimate(whole).position - estimate(cut).position).norm(), 1e-9) << name;
+    EXPECT_LT((estimate(whole).velocity - estimate(cut).velocity).norm(), 1e-9) << name;
+    EXPECT_NEAR(position_sigma(cut)[0] / position_sigma(whole)[0], 1.0, 0.1) << name;
+    if (!std::holds_alternative<ImmFilter>(whole)) continue;
+    EXPECT_NEAR(position_sigma(cut)[0], position_sigma(whole)[0], 1e-9) << name;
   }
 }
 
