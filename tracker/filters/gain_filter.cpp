@@ -215,18 +215,24 @@ auto GainFilter<D>::as_scheduled(const AxisGain<Axes>& gain) const -> Scheduled 
 
 /// Is the residual beyond the Huber limit, and to be shortened? It says nothing of outliers before
 /// all derivatives are known, and one that repeats itself on the same side is no outlier: the target
-/// has moved otherwise than believed.
+/// has moved otherwise than believed. A measurement too rough to see it does not speak against it.
 template <int D>
 bool GainFilter<D>::doubts(const Vector& residual, const AxisCovariance<Axes>& belief,
                            const Axes& variance) {
   constexpr int kMostInARow = 2;
   if (!std::isfinite(design_->errors.huber) || updates_ <= design_->schedule.steady.order) return false;
-  const double squared = (residual.array().square() / (belief.xx + variance)).sum();
-  const bool is_far = squared > design_->errors.huber * design_->errors.huber;
+  const auto would_be_far = [&](const Vector& distance) {
+    return (distance.array().square() / (belief.xx + variance)).sum() >
+           design_->errors.huber * design_->errors.huber;
+  };
+  if (!would_be_far(residual)) {
+    if (would_be_far(last_far_)) far_in_a_row_ = 0;
+    return false;
+  }
   const bool repeats = far_in_a_row_ > 0 && residual.dot(last_far_) > 0.0;
-  far_in_a_row_ = !is_far ? 0 : repeats ? far_in_a_row_ + 1 : 1;
+  far_in_a_row_ = repeats ? far_in_a_row_ + 1 : 1;
   last_far_ = residual;
-  return is_far && far_in_a_row_ <= kMostInARow;
+  return far_in_a_row_ <= kMostInARow;
 }
 
 template <int D>
