@@ -127,15 +127,15 @@ double false_tracks(const SubjectReport& s) { return of_scene(s, s.run.total.fal
 
 constexpr std::array<MetricInfo, kMetrics> kInfo = {{
     {"rmse", "RMSE of position", "m", "root mean square of the position's error",
-     Better::kLess, Average::kRootMeanSquare, rmse_position, predicted_rmse},
+     Better::kLess, Average::kRootMeanSquare, rmse_position, predicted_rmse, true},
     {"rmse_at_clock", "RMSE at the wall clock", "m",
      "root mean square of the position's error as it was known at the time of each scan, predicted "
      "from what had arrived by then; where sensors have a latency",
-     Better::kLess, Average::kRootMeanSquare, rmse_at_clock},
+     Better::kLess, Average::kRootMeanSquare, rmse_at_clock, nullptr, true},
     {"rmse_velocity", "RMSE of velocity", "m/s", "root mean square of the velocity's error",
-     Better::kLess, Average::kRootMeanSquare, rmse_velocity, predicted_velocity},
+     Better::kLess, Average::kRootMeanSquare, rmse_velocity, predicted_velocity, true},
     {"peak_error", "Peak error", "m", "largest error of the position", Better::kLess,
-     Average::kPositiveMean, peak_error},
+     Average::kPositiveMean, peak_error, nullptr, true},
     {"settling_time", "Settling time", "s",
      "from the first scan of an object until ten errors in a row are below two sigmas of a "
      "detection; to its last scan if they never are; median over the runs",

@@ -51,6 +51,7 @@ struct MetricInfo {
   Average average = Average::kMean;  // over the runs
   double (*value)(const SubjectReport&) = nullptr;      // of a run; NaN if it did not occur
   double (*predicted)(const SubjectReport&) = nullptr;  // by closed forms; null: there are none
+  bool is_error = false;  // of an object that is followed: a run in which it is lost tells another
 };
 const MetricInfo& info(Metric metric);
 

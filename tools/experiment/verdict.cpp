@@ -10,11 +10,6 @@ constexpr double kConfidence = 0.95;
 constexpr double kNegligible = 0.01;      // of the best filter's mean: no difference that matters
 constexpr double kFollowedEnough = 0.95;  // of the share that the most faithful filter follows
 
-bool is_error(Metric metric) {
-  return metric == Metric::kRmsePosition || metric == Metric::kRmseAtClock ||
-         metric == Metric::kRmseVelocity || metric == Metric::kPeakError;
-}
-
 /// Which filters lose their objects much more often than the most faithful one, beyond chance.
 std::vector<bool> losers(std::span<const FilterRuns> filters) {
   std::vector<double> shares;
@@ -96,7 +91,7 @@ std::string_view to_string(Significance significance) {
 
 SampleMean mean_of_metric(Metric metric, std::span<const double> values, bool may_be_ruined) {
   SampleMean mean = mean_of(values, info(metric).average);
-  if (may_be_ruined && is_error(metric)) {
+  if (may_be_ruined && info(metric).is_error) {
     mean.ci95.reset();
     mean.has_heavy_tails = true;
   }
@@ -111,7 +106,7 @@ std::vector<FilterVerdict> judged(Metric metric, std::span<const FilterRuns> fil
   }
   if (info(metric).better == Better::kNeither || filters.size() < 2) return verdicts;
 
-  const bool by_median = may_be_ruined && is_error(metric);
+  const bool by_median = may_be_ruined && info(metric).is_error;
   const Average average = by_median ? Average::kMedian : info(metric).average;
   const double sign = info(metric).better == Better::kLess ? 1.0 : -1.0;
   const auto middle = [&](std::size_t i) {
