@@ -1,7 +1,9 @@
 // The commands that look at scene files without running them.
 
+#include <algorithm>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "scenes/schema/diagnostic.hpp"
 #include "scenes/schema/writer.hpp"
@@ -9,26 +11,33 @@
 #include "tools/cli/messages.hpp"
 #include "tools/cli/passages.hpp"
 #include "tools/cli/scene_source.hpp"
+#include "tracker/tracker_design.hpp"
 
 namespace ghtrack::cli {
 namespace {
 
-/// Fixed gains are the textbook's and an explicit choice; scans of several sensors are not theirs.
-void warn_of_fixed_gains(const std::string& file, const Scene& scene) {
+bool takes_gains_from_a_table(const SingleFilterConfig& filter) {
+  return std::visit(
+      [](const auto& chosen) {
+        if constexpr (requires { chosen.irregular_time; }) {
+          return chosen.irregular_time &&
+                 chosen.irregular_time != IrregularTime::kGainsFromCovariance;
+        }
+        return false;
+      },
+      filter);
+}
+
+/// Tables of gains are the textbook's and an explicit choice; scans of several sensors, whose times
+/// and accuracies differ, are not theirs.
+void warn_of_tables(const std::string& file, const Scene& scene) {
   const auto* world = std::get_if<WorldScene>(&scene);
   if (world == nullptr || world->sensors.size() < 2) return;
   for (const auto& [label, filter] : world->tracker.filters) {
-    const bool is_fixed = std::visit(
-        [](const auto& chosen) {
-          if constexpr (requires { chosen.irregular_time; }) {
-            return chosen.irregular_time == IrregularTime::kFixedGains;
-          }
-          return false;
-        },
-        filter);
-    if (!is_fixed) continue;
-    tell("{}: warning: tracker.filters.{}: fixed-gains are meant for even times, and the scans of "
-         "{} sensors are not; gains-from-covariance is right at any times",
+    const std::vector<SingleFilterConfig> filters = filters_of(world->tracker, label);
+    if (std::none_of(filters.begin(), filters.end(), takes_gains_from_a_table)) continue;
+    tell("{}: warning: tracker.filters.{}: irregular_time: of the scans of {} sensors times and "
+         "accuracies differ, for which only gains-from-covariance is right",
          file, label, world->sensors.size());
   }
 }
@@ -50,7 +59,7 @@ int check(const SceneOptions& options, const Manners& manners) {
       const Scene scene = load_scene(file, options);
       if (manners.quiet) continue;
       print(printable(file) + ": ok\n");
-      warn_of_fixed_gains(file, scene);
+      warn_of_tables(file, scene);
       warn_of_passages(file, scene);
     } catch (const SceneError& error) {
       found.insert(found.end(), error.diagnostics().begin(), error.diagnostics().end());
