@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace ghtrack {
 namespace {
@@ -231,9 +233,126 @@ void leap(std::vector<Pushed>& bodies, std::vector<Row>& rows) {
   }
 }
 
+/// z ≥ 0 with w = m z + q ≥ 0, z ⟂ w, by Lemke's pivoting (Cottle, Pang & Stone, The Linear
+/// Complementarity Problem, 1992, algorithm 4.4.5).
+/// @param m  row by row
+/// @returns nothing if that ends on a ray
+std::optional<std::vector<double>> solve_complementarity(const std::vector<double>& m,
+                                                         const std::vector<double>& q) {
+  const std::size_t size = q.size();
+  const std::size_t cover = 2 * size;  // column of what lifts all w above zero at first
+  const std::size_t width = 2 * size + 2;
+  std::vector<double> table(size * width, 0.0);  // w − m z − cover = q
+  const auto at = [&](std::size_t row, std::size_t column) -> double& {
+    return table[row * width + column];
+  };
+  std::vector<std::size_t> basis(size);
+  for (std::size_t row = 0; row < size; ++row) {
+    at(row, row) = 1.0;
+    for (std::size_t k = 0; k < size; ++k) at(row, size + k) = -m[row * size + k];
+    at(row, cover) = -1.0;
+    at(row, width - 1) = q[row];
+    basis[row] = row;
+  }
+  const auto enter = [&](std::size_t pivot, std::size_t column) {
+    const double head = at(pivot, column);
+    for (std::size_t k = 0; k < width; ++k) at(pivot, k) /= head;
+    for (std::size_t row = 0; row < size; ++row) {
+      const double factor = at(row, column);
+      if (row == pivot || factor == 0.0) continue;
+      for (std::size_t k = 0; k < width; ++k) at(row, k) -= factor * at(pivot, k);
+    }
+    return std::exchange(basis[pivot], column);
+  };
+  const std::size_t lowest =
+      static_cast<std::size_t>(std::min_element(q.begin(), q.end()) - q.begin());
+  std::size_t left = cover;
+  if (q[lowest] < 0.0) left = enter(lowest, cover);
+  for (std::size_t step = 0; left != cover; ++step) {
+    const std::size_t entering = left < size ? left + size : left - size;
+    std::size_t best = size;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t row = 0; row < size; ++row) {
+      if (at(row, entering) < 1e-11) continue;
+      const double ratio = at(row, width - 1) / at(row, entering);
+      if (ratio > least || (ratio == least && basis[row] != cover)) continue;
+      least = ratio;
+      best = row;
+    }
+    if (best == size || step > 50 * size) return std::nullopt;
+    left = enter(best, entering);
+  }
+  std::vector<double> z(size, 0.0);
+  for (std::size_t row = 0; row < size; ++row) {
+    if (basis[row] >= size && basis[row] < cover) z[basis[row] - size] = at(row, width - 1);
+  }
+  return z;
+}
+
+/// Pushes and grips of impacts: Coulomb's law as a problem of complementarity, which always has an
+/// answer (Stewart & Trinkle 1996). Of each touch there are the push, the grip towards either side
+/// and the speed at which it slips.
+bool guess_impacts(const std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
+  const std::size_t size = 4 * touches.size();
+  if (size > kMostUnknowns) return false;
+  std::vector<Pushed> pushed = bodies;
+  std::vector<Row> rows;
+  rows.reserve(touches.size());
+  for (Touch& touch : touches) {
+    touch.push = touch.grip = 0.0;
+    rows.emplace_back(pushed, touch);
+  }
+  const auto residues = [&] {
+    std::vector<double> result;
+    for (const Row& row : rows) {
+      const double slip = row.residue(Row::Unknown::kGrip);
+      result.insert(result.end(), {row.residue(Row::Unknown::kPush), slip, -slip, 0.0});
+    }
+    return result;
+  };
+  std::vector<double> q = residues();
+  std::vector<double> m(size * size, 0.0);
+  for (std::size_t j = 0; j < size; ++j) {
+    const std::size_t touch = j / 4;
+    const std::size_t which = j % 4;
+    if (which == 3) {
+      m[(j - 2) * size + j] = m[(j - 1) * size + j] = 1.0;
+      continue;
+    }
+    std::copy(bodies.begin(), bodies.end(), pushed.begin());
+    rows[touch].apply(which == 0 ? 1.0 : 0.0, which == 0 ? 0.0 : which == 1 ? 1.0 : -1.0, 0.0);
+    const std::vector<double> then = residues();
+    for (std::size_t i = 0; i < size; ++i) m[i * size + j] = then[i] - q[i];
+    m[(4 * touch + 3) * size + j] = which == 0 ? touches[touch].friction : -1.0;
+  }
+  // Where several pivots would do the same they would go round in circles.
+  double largest = 0.0;
+  for (const double entry : q) largest = std::max(largest, std::abs(entry));
+  for (std::size_t i = 0; i < size; ++i) q[i] += 1e-11 * largest * static_cast<double>(i + 1);
+  const auto z = solve_complementarity(m, q);
+  if (!z) return false;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    touches[i].push = (*z)[4 * i];
+    touches[i].grip = (*z)[4 * i + 1] - (*z)[4 * i + 2];
+  }
+  return true;
+}
+
 }  // namespace
 
-void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps) {
+void solve_impacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
+  constexpr int kMostSweeps = 2000;
+  const std::vector<Pushed> before = bodies;
+  const std::vector<Touch> untouched = touches;
+  if (solve_contacts(bodies, touches, kMostSweeps)) return;
+  std::vector<Touch> guess = untouched;
+  if (!guess_impacts(before, guess)) return;
+  bodies = before;
+  touches = std::move(guess);
+  solve_contacts(bodies, touches, kMostSweeps);
+}
+
+bool solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps) {
   double largest = 1e-300;
   for (const Pushed& body : bodies) {
     largest = std::max({largest, body.rate.norm(), std::abs(body.spin_rate) * body.radius});
@@ -264,7 +383,7 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, in
     for (std::size_t i = 0; i < rows.size(); ++i) {
       change = std::max(change, rows[sweep % 2 == 0 ? i : rows.size() - 1 - i].improve());
     }
-    if (change <= kExact * largest) break;
+    if (change <= kExact * largest) return true;
     if (leaps && !(change < change_before)) {
       std::copy(bodies_before.begin(), bodies_before.end(), bodies.begin());
       std::copy(touches_before.begin(), touches_before.end(), touches.begin());
@@ -274,6 +393,7 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, in
     if (change > 0.5 * earlier) break;  // friction has no answer, or none that it converges to
     earlier = change;
   }
+  return false;
 }
 
 }  // namespace ghtrack

@@ -58,6 +58,12 @@ inline Vec2 tangent_to(const Vec2& normal) { return {normal.y(), -normal.x()}; }
 /// of what touches, sticks and slides are solved now and then, and sweeps tell whether that is the
 /// answer (Silcowitz, Niebe & Erleben 2010). The bodies' rates are those with these forces
 /// afterwards.
-void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps);
+/// @returns whether that is the answer: there may be none to forces, and sweeps may not find it
+bool solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps);
+
+/// The same for impulses without couples, to which there is always an answer. Sweeps do not find it
+/// where friction draws a body into a wedge that jams: a hundred times the impulse that it takes to
+/// stop the approach then stops the slip at once.
+void solve_impacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches);
 
 }  // namespace ghtrack

@@ -384,6 +384,19 @@ class Encounter {
     record(now, pair, impulse);
   }
 
+  /// Moves apart what overlaps by more than a touch, as where a path has jumped because its step was
+  /// divided, or hits were passed over.
+  void part(Instant& now) const {
+    const auto overlaps = [&](const Pair& pair) { return gap(now, pair).distance < -kTouching; };
+    if (std::none_of(pairs_.begin(), pairs_.end(), overlaps)) return;
+    const Heap heap = touching(now, std::numeric_limits<double>::infinity());
+    const std::vector<FlightState> before = states_of(now, heap);
+    std::vector<FlightState> after = before;
+    close_gaps(after, heap, now.passing);
+    keep_energy(before, after, heap, now.time, now.time);
+    for (std::size_t i = 0; i < before.size(); ++i) *flight(now, heap.bodies[i]) = after[i];
+  }
+
   /// The impact of all these pairs at once, with restitution or without.
   void answer_together(Instant& now, Heap heap, bool bouncing) {
     const std::vector<FlightState> before = states_of(now, heap);
@@ -406,7 +419,7 @@ class Encounter {
       }
       if (bouncing) touch.normal_offset += restitution_of(pair) * parting(now, pair, there);
     }
-    solve_contacts(pushed, heap.touches, kImpulseSweeps);
+    solve_impacts(pushed, heap.touches);
     std::vector<FlightState> after = before;
     for (std::size_t i = 0; i < before.size(); ++i) {
       after[i].velocity = pushed[i].rate;
@@ -902,7 +915,10 @@ class Encounter {
       meeting_.lowest[i] = meeting_.lowest[i].cwiseMin(position);
       meeting_.highest[i] = meeting_.highest[i].cwiseMax(position);
     }
-    if (hit) exchange_impulses(then);
+    if (hit) {
+      part(then);
+      exchange_impulses(then);
+    }
     return then;
   }
 

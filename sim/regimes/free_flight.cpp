@@ -288,8 +288,7 @@ Vec2 strike(FlightState& state, const RoundBody& body, const std::vector<Surface
     touch.normal_offset =
         surface.restitution.value_or(body.restitution) * state.velocity.dot(touch.normal);
   }
-  constexpr int kMostSweeps = 2000;
-  solve_contacts(one, touches, kMostSweeps);
+  solve_impacts(one, touches);
   const FlightState before = state;
   state.velocity = one[0].rate;
   state.spin = one[0].spin_rate;
@@ -303,10 +302,19 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
             const std::vector<Surface>& surfaces, std::size_t surface) {
   Vec2 impulse = Vec2::Zero();
   constexpr int kMostEchoes = 50;  // to and fro between two supports
+  const auto is_support = [&state](std::size_t index) {
+    const int support = static_cast<int>(index);
+    return support == state.support || support == state.second_support;
+  };
   const auto may_rest_on = [&](std::size_t index, double departure) {
     const Contact contact = surfaces[index].contact(state.position);
+    // What it rests on may press it against a wall that it would fall away from.
+    const FlightRate rate =
+        state.support >= 0 && !is_support(index)
+            ? supported_rate(state, free, body, surfaces, portable::sign(state.spin))
+            : free;
     const double pressing =
-        -free.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
+        -rate.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
     const double rest_speed =
         std::max(kLeastBounce, std::sqrt(2.0 * kRestHeight * std::max(0.0, pressing)));
     if (departure >= rest_speed || !(pressing > 0.0)) return;
@@ -397,6 +405,24 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
   const auto closing = [&](double f, const Contact& contact) {
     return Vec2((1.0 - f) * before.velocity + f * after.velocity).dot(contact.normal);
   };
+  // Of two that are hit between the same samples, as beside the corner of a box, the earlier one.
+  const auto touched_at = [&](const Approach& approach) {
+    const Surface& surface = surface_at(surfaces, approach.surface);
+    double apart = approach.clear;
+    double overlapping = approach.touching;
+    while (overlapping - apart > 1e-12) {
+      const double middle = 0.5 * (apart + overlapping);
+      const Contact there = surface.contact(position_at(middle));
+      const bool overlaps = there.distance < body.radius && closing(middle, there) < 0.0;
+      (overlaps ? overlapping : apart) = middle;
+    }
+    return overlapping;
+  };
+  const auto consider = [&](const Approach& approach) {
+    const bool is_first = first.surface < 0 || approach.touching <= first.clear ||
+                          touched_at(approach) < touched_at(first) - 1e-9;
+    if (is_first) first = approach;
+  };
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     if (static_cast<int>(i) == before.support || static_cast<int>(i) == before.second_support) {
       continue;
@@ -421,13 +447,13 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
     bool closes = false;  // at `clear`
     for (int k = 0; k <= samples; ++k) {
       const double f = static_cast<double>(k) / samples;
-      if (f >= first.touching && first.surface >= 0) break;
+      if (first.surface >= 0 && clear >= first.touching) break;
       const Vec2 position = position_at(f);
       const Contact contact = surfaces[i].contact(position);
       const double parting = closing(f, contact);
       if (contact.distance < body.radius && parting < 0.0 &&
           !is_touched_already(contact, position)) {
-        first = {static_cast<int>(i), clear, f};
+        consider({static_cast<int>(i), clear, f});
         break;
       }
       // Between two samples it may have grazed an end.
@@ -441,7 +467,7 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
         }
         const Contact there = surfaces[i].contact(position_at(towards));
         if (there.distance < body.radius && !is_touched_already(there, position_at(towards))) {
-          first = {static_cast<int>(i), clear, towards};
+          consider({static_cast<int>(i), clear, towards});
           break;
         }
       }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sim/contact_forces.hpp"
 #include "sim/portable_math.hpp"
 #include "tests/sim/energy_world.hpp"
 #include "tests/sim/scenario.hpp"
@@ -222,6 +223,85 @@ TEST(Contact, RestsInACornerUnderWind) {
   EXPECT_EQ(state.acceleration, Vec2::Zero());
 }
 
+// Property: a ball that a slope presses under a wall that leans over it, or against an upright one,
+// comes to rest there, whether it spins or not.
+TEST(Contact, RestsUnderAWallThatLeansOver) {
+  for (const double lean : {0.0, 0.2, 1.0}) {
+    for (const double spin : {0.0, 30.0}) {
+      ThrownBall ball = billiard_ball(Vec2(-1.0, 1.0), Vec2::Zero());
+      ball.restitution = 0.4;
+      ball.friction = 0.3;
+      ball.spin = spin;
+      WorldConfig config = world_of({target_of(ball)});
+      config.environment.air.density = 0.0;
+      config.environment.walls = {Wall{Vec2(-4.0, 2.0), Vec2(2.0, -1.0)},
+                                  Wall{Vec2(0.0, 0.0), Vec2(-lean, 1.0)}};
+      World world(config, 1);
+      const TruthSnapshot truth = world.sample(30.0);
+      EXPECT_EQ(truth.objects[0].velocity, Vec2::Zero()) << lean;
+      EXPECT_EQ(truth.objects[0].acceleration, Vec2::Zero()) << lean;
+      EXPECT_NEAR(truth.bodies[0].spin, 0.0, 1e-6) << lean;
+      for (const Surface& surface : world.environment().surfaces()) {
+        EXPECT_NEAR(surface.contact(truth.objects[0].position).distance, 0.1, 1e-9) << lean;
+      }
+    }
+  }
+}
+
+// Derived: a smooth ball that falls onto the top of a box is thrown straight up, right up to the
+// corner, however long the steps are.
+TEST(Contact, HitsTheTopOfABoxBesideItsCorner) {
+  for (const double inside : {0.001, 0.02, 0.05}) {
+    for (int phase = 0; phase < 20; ++phase) {
+      ThrownBall ball = billiard_ball(Vec2(0.5 - inside, 4.0 + 0.01 * phase), Vec2(0.0, -5.0));
+      ball.restitution = 0.5;
+      WorldConfig config = world_of({target_of(ball)});
+      config.physics.rate = 60.0;
+      config.environment.air.density = 0.0;
+      config.environment.boxes = {SolidBox{.center = Vec2(0.0, 0.5), .size = Vec2(1.0, 1.0)}};
+      const double speed = std::sqrt(25.0 + 2.0 * kStandardGravity * (ball.position.y() - 1.1));
+      World world(config, 1);
+      const double hit = (speed - 5.0) / kStandardGravity;
+      const TruthState state = state_at(world, hit + 0.1);
+      EXPECT_NEAR(state.velocity.x(), 0.0, 1e-9) << inside << ' ' << phase;
+      EXPECT_NEAR(state.velocity.y(), 0.5 * speed - 0.1 * kStandardGravity, 1e-6) << inside;
+    }
+  }
+}
+
+// Derived: friction draws a sliding ball into the wedge between another and a slope, so that slowing
+// it down takes more and more force: the one answer of Coulomb's law is that both touches stick at
+// once. It takes energy.
+TEST(Contact, JamsWhatFrictionDrawsIntoAWedge) {
+  std::vector<Pushed> bodies{{Vec2(0.838217, 0.744851), -16.96502, 0.3131753, 43.09001, 0.1043861},
+                             {Vec2(0.610038, 0.268663), -20.46229, 22.09399, 31214.44, 0.03257589}};
+  std::vector<Touch> touches(2);
+  touches[0] = {.one = 0, .other = 1, .normal = Vec2(-0.9139834, 0.4057516).normalized(),
+                .friction = 0.408};
+  touches[1] = {.one = 1, .normal = Vec2(-0.4030478, 0.9151789).normalized(), .friction = 0.662};
+  const auto energy = [&bodies] {
+    double sum = 0.0;
+    for (const Pushed& body : bodies) {
+      sum += 0.5 * body.rate.squaredNorm() / body.inverse_mass +
+             0.5 * body.spin_rate * body.spin_rate / body.inverse_inertia;
+    }
+    return sum;
+  };
+  const double begun = energy();
+  solve_impacts(bodies, touches);
+  EXPECT_LT(energy(), begun);
+  for (const Touch& touch : touches) {
+    const Pushed& one = bodies[static_cast<std::size_t>(touch.one)];
+    const Pushed other = touch.other >= 0 ? bodies[static_cast<std::size_t>(touch.other)] : Pushed{};
+    EXPECT_NEAR(touch.normal.dot(one.rate - other.rate), 0.0, 1e-9);
+    EXPECT_NEAR(tangent_to(touch.normal).dot(one.rate - other.rate) + one.radius * one.spin_rate +
+                    other.radius * other.spin_rate,
+                0.0, 1e-9);
+    EXPECT_GT(touch.push, 1.0);
+    EXPECT_LE(std::abs(touch.grip), touch.friction * touch.push);
+  }
+}
+
 // Property: a rolling ball that has hit a wall comes back to the ground.
 TEST(Contact, ComesBackToTheGroundFromAWall) {
   ThrownBall ball = plain_ball(Vec2(0.0, 0.11), Vec2(8.0, 0.0));
@@ -364,13 +444,18 @@ TEST(Contact, FollowsABallThatRattlesInAGap) {
 }
 
 // Property: without wind and motors the energy of balls between walls, ramps, valleys and each
-// other never grows, and nobody sinks into anything by a micrometre. The program energy_worlds tries
-// as many as one likes.
+// other never grows, nobody sinks into anything by a micrometre, who stands still has no
+// acceleration, and who has none touches something. The program energy_worlds tries as many as one
+// likes.
 TEST(Contact, NeverGainsEnergy) {
-  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+  std::vector<std::uint64_t> seeds{2000002, 2000135, 2000456, 2000457};  // failed once
+  for (std::uint64_t seed = 0; seed < 24; ++seed) seeds.push_back(seed);
+  for (const std::uint64_t seed : seeds) {
     const EnergyRun run = run_energy_world(seed);
     EXPECT_LT(run.most_gained, 1e-9 * run.begun) << seed;
     EXPECT_GT(run.lowest, -1e-8) << seed;
+    EXPECT_LT(run.most_unrest, 1e-4) << seed;
+    EXPECT_EQ(run.afloat, 0) << seed;
   }
 }
 

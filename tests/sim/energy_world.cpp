@@ -5,6 +5,7 @@
 #include <ctime>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "sim/random.hpp"
 #include "tests/sim/scenario.hpp"
@@ -102,12 +103,36 @@ WorldConfig energy_world(std::uint64_t seed) {
   return config;
 }
 
+namespace {
+
+/// The least gap between a ball and all else [m].
+double gap_around(const WorldConfig& config, const Environment& environment,
+                  const TruthSnapshot& truth, std::size_t k) {
+  const auto radius = [&](std::size_t i) {
+    return std::get<ThrownBall>(config.targets[i].motion).radius;
+  };
+  const Vec2& position = truth.objects[k].position;
+  double least = 1e9;
+  for (const Surface& surface : environment.surfaces()) {
+    least = std::min(least, surface.contact(position).distance - radius(k));
+  }
+  for (std::size_t j = 0; j < truth.objects.size(); ++j) {
+    if (j == k) continue;
+    const double apart = (position - truth.objects[j].position).norm();
+    least = std::min(least, apart - radius(k) - radius(j));
+  }
+  return least;
+}
+
+}  // namespace
+
 EnergyRun run_energy_world(std::uint64_t seed) {
   const std::clock_t begin = std::clock();
   const WorldConfig config = energy_world(seed);
   World world(config, seed);
   EnergyRun result;
   double least = 0.0;
+  std::vector<Vec2> stands;  // where each was at the sample before
   for (int i = 0; i <= 120; ++i) {
     const TruthSnapshot truth = world.sample(0.05 * i);
     double energy = 0.0;
@@ -117,17 +142,15 @@ EnergyRun run_energy_world(std::uint64_t seed) {
       const TruthState& state = truth.objects[k];
       energy += ball.mass * (kStandardGravity * (state.position.y() - kDepth) +
                              0.5 * state.velocity.squaredNorm() + 0.5 * ball.inertia * rim * rim);
-      for (const Surface& surface : world.environment().surfaces()) {
-        result.lowest =
-            std::min(result.lowest, surface.contact(state.position).distance - ball.radius);
-      }
-      for (std::size_t j = 0; j < k; ++j) {
-        const double apart = (state.position - truth.objects[j].position).norm();
-        result.lowest =
-            std::min(result.lowest,
-                     apart - ball.radius - std::get<ThrownBall>(config.targets[j].motion).radius);
-      }
+      const double gap = gap_around(config, world.environment(), truth, k);
+      result.lowest = std::min(result.lowest, gap);
+      // A ball at the top of its flight is so slow at one sample only.
+      const bool stood = k < stands.size() && (stands[k] - state.position).norm() < 1e-9;
+      if (stood) result.most_unrest = std::max(result.most_unrest, state.acceleration.norm());
+      if (state.acceleration == Vec2::Zero() && gap > 1e-8) ++result.afloat;
     }
+    stands.clear();
+    for (const TruthState& state : truth.objects) stands.push_back(state.position);
     if (i == 0) result.begun = least = energy;
     result.most_gained = std::max(result.most_gained, energy - least);
     least = std::min(least, energy);

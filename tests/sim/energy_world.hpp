@@ -15,6 +15,8 @@ struct EnergyRun {
   double begun = 0.0;        // kinetic, of rotation and potential above the lowest point [J]
   double most_gained = 0.0;  // from one sample to a later one [J]
   double lowest = 0.0;       // of all gaps between balls and surroundings [m]
+  double most_unrest = 0.0;  // acceleration of a ball that has stood still for a while [m/s²]
+  int afloat = 0;            // balls at rest that touch nothing
   long collisions_missed = 0;
   double cpu_time = 0.0;  // [s]
 };

@@ -1,6 +1,6 @@
 // energy_worlds [N [FIRST]]: runs N random worlds of balls (10 000 unless told) from seed FIRST on
-// for six seconds each, and tells in which energy grew or something sank into something else. The
-// suite runs the first few.
+// for six seconds each, and tells in which energy grew, something sank into something else, stood
+// still with an acceleration, or rested on nothing. The suite runs the first few.
 
 #include <algorithm>
 #include <cstdint>
@@ -22,15 +22,19 @@ int main(int argc, char** argv) {
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     try {
       const ghtrack::EnergyRun run = ghtrack::run_energy_world(seed);
-      const double gained = run.most_gained / run.begun;
+      const double gained = run.begun > 0.0 ? run.most_gained / run.begun : 0.0;  // none: no balls
       total += run.cpu_time;
       slowest = std::max(slowest, run.cpu_time);
       most = std::max(most, gained);
       lowest = std::min(lowest, run.lowest);
       missed += run.collisions_missed;
-      if (gained < 1e-7 && run.lowest > -1e-6) continue;
-      std::printf("seed %ju: gained %.2e of its energy, lowest gap %.2e m, missed %ld\n",
-                  static_cast<std::uintmax_t>(seed), gained, run.lowest, run.collisions_missed);
+      const bool rests = run.most_unrest < 1e-4 && run.afloat == 0;
+      if (gained < 1e-7 && run.lowest > -1e-6 && rests) continue;
+      std::printf("seed %ju: gained %.2e of its energy, lowest gap %.2e m, missed %ld, unrest %.2e "
+                  "m/s², %d afloat\n",
+                  static_cast<std::uintmax_t>(seed), gained, run.lowest, run.collisions_missed,
+                  run.most_unrest, run.afloat);
+      std::fflush(stdout);
     } catch (const std::exception& error) {
       std::printf("seed %ju: %s\n", static_cast<std::uintmax_t>(seed), error.what());
     }
