@@ -27,11 +27,32 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned count) {
   return CAIRO_STATUS_SUCCESS;
 }
 
+/// How many columns give panels that are neither flat nor narrow, where the height is given.
+int columns_in(const Style& style, const std::vector<Panel>& panels) {
+  const auto count = static_cast<int>(panels.size());
+  const bool has_wide = std::any_of(panels.begin(), panels.end(),
+                                    [](const Panel& panel) { return panel.wide; });
+  if (style.height == 0.0 || has_wide) return std::min(style.columns, std::max(1, count));
+  constexpr double kBeside = 6.0, kAround = 5.0;  // of what is drawn, in letters
+  const auto flatness = [&](int columns) {
+    const int rows = (count + columns - 1) / columns;
+    const double width = style.width / columns - kBeside * style.font_size;
+    const double height = style.height / rows - kAround * style.font_size;
+    return std::abs(std::log(kPanelAspect * width / std::max(height, 1.0)));
+  };
+  int best = 1;
+  for (int columns = 2; columns <= count; ++columns) {
+    if (style.width / columns <= 2.0 * kBeside * style.font_size) break;
+    if (flatness(columns) < flatness(best)) best = columns;
+  }
+  return best;
+}
+
 /// Where the panels of a figure are, in rows of as many as there is room for.
 class Layout {
  public:
   Layout(const Figure& figure, const Style& style)
-      : columns_(std::min(style.columns, std::max(1, static_cast<int>(figure.panels.size())))) {
+      : columns_(columns_in(style, figure.panels)) {
     top_ = figure.title.empty() ? 0.0 : kTitle * style.font_size;
     const double width = style.width / columns_;
     double y = 0.0;

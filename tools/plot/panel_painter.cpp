@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "tools/plot/axis.hpp"
 
@@ -213,7 +214,7 @@ std::vector<Entry> legend_of(const Panel& panel) {
   for (const Curve& curve : panel.curves) {
     if (!curve.name.empty()) entries.push_back({curve.name, curve.mark, curve.colour, false});
   }
-  // What all curves are compared with comes first, because there may not be room for all of them.
+  // What all curves are compared with comes first.
   std::stable_partition(entries.begin(), entries.end(),
                         [](const Entry& entry) { return entry.colour < 0; });
   for (const Band& band : panel.bands) {
@@ -222,50 +223,79 @@ std::vector<Entry> legend_of(const Panel& panel) {
   return entries;
 }
 
-/// Draws the legend right-aligned beside the title, in as many of its entries as there is room for.
-void draw_legend(Canvas& canvas, const Panel& panel, const Rectangle& plot, double top,
-                 const Palette& palette, double font_size) {
-  const double small = font_size * 0.8;
-  const double swatch = small * 1.6;
-  const std::vector<Entry> entries = legend_of(panel);
-  const double room =
-      plot.width - canvas.text_width(panel.title, font_size, true) - font_size * 1.5;
-  double needed = 0.0;
-  std::size_t count = 0;
-  for (; count < entries.size(); ++count) {
-    const double width = swatch + canvas.text_width(entries[count].name, small) + small * 1.3;
-    if (needed + width > room) break;
-    needed += width;
+/// Entries of a legend in right-aligned rows, the first of which has the title beside it.
+class Legend {
+ public:
+  Legend(Canvas& canvas, const Panel& panel, double width, double font_size)
+      : canvas_(canvas), small_(font_size * 0.8) {
+    double room = width - canvas.text_width(panel.title, font_size, true) - font_size * 1.5;
+    double needed = 0.0;
+    for (Entry& entry : legend_of(panel)) {
+      const double own = width_of(entry);
+      if (needed + own > room && (needed > 0.0 || rows_.size() == 1)) {
+        rows_.emplace_back();
+        room = width;
+        needed = 0.0;
+      }
+      needed += own;
+      rows_.back().push_back(std::move(entry));
+    }
+    if (rows_.size() > kMostRows) rows_.resize(kMostRows);
   }
-  double x = plot.x + plot.width - needed;
-  const double y = top + font_size * 1.1;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Entry& entry = entries[i];
+
+  /// Below the first row.
+  double extra_height() const { return static_cast<double>(rows_.size() - 1) * row_height(); }
+
+  void draw(double right, double baseline, const Palette& palette) const {
+    for (const std::vector<Entry>& row : rows_) {
+      double x = right;
+      for (const Entry& entry : row) x -= width_of(entry);
+      for (const Entry& entry : row) {
+        draw(entry, x, baseline, palette);
+        x += width_of(entry);
+      }
+      baseline += row_height();
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMostRows = 4;
+
+  double row_height() const { return 1.4 * small_; }
+  double swatch() const { return 1.6 * small_; }
+  double width_of(const Entry& entry) const {
+    return swatch() + canvas_.text_width(entry.name, small_) + small_ * 1.3;
+  }
+
+  void draw(const Entry& entry, double x, double y, const Palette& palette) const {
     const Colour colour = palette.of(entry.colour);
-    const double middle = y - small * 0.32;
+    const double middle = y - small_ * 0.32;
     if (entry.is_band) {
-      canvas.fill(x, middle - small * 0.35, swatch * 0.8, small * 0.7, colour.with_alpha(0.3));
+      canvas_.fill(x, middle - small_ * 0.35, swatch() * 0.8, small_ * 0.7, colour.with_alpha(0.3));
     } else if (entry.mark == Mark::kDots || entry.mark == Mark::kRings) {
-      canvas.set(colour);
-      cairo_new_sub_path(canvas.cairo());
-      cairo_arc(canvas.cairo(), x + swatch * 0.4, middle, small * 0.22, 0.0,
+      canvas_.set(colour);
+      cairo_new_sub_path(canvas_.cairo());
+      cairo_arc(canvas_.cairo(), x + swatch() * 0.4, middle, small_ * 0.22, 0.0,
                 2.0 * std::numbers::pi);
       if (entry.mark == Mark::kDots) {
-        cairo_fill(canvas.cairo());
+        cairo_fill(canvas_.cairo());
       } else {
-        cairo_set_line_width(canvas.cairo(), small * 0.1);
-        cairo_stroke(canvas.cairo());
+        cairo_set_line_width(canvas_.cairo(), small_ * 0.1);
+        cairo_stroke(canvas_.cairo());
       }
     } else {
-      const double dashes[] = {small * 0.4, small * 0.25};
-      cairo_set_dash(canvas.cairo(), dashes, entry.mark == Mark::kDashes ? 2 : 0, 0.0);
-      canvas.line(x, middle, x + swatch * 0.8, middle, small * 0.16, colour);
-      cairo_set_dash(canvas.cairo(), nullptr, 0, 0.0);
+      const double dashes[] = {small_ * 0.4, small_ * 0.25};
+      cairo_set_dash(canvas_.cairo(), dashes, entry.mark == Mark::kDashes ? 2 : 0, 0.0);
+      canvas_.line(x, middle, x + swatch() * 0.8, middle, small_ * 0.16, colour);
+      cairo_set_dash(canvas_.cairo(), nullptr, 0, 0.0);
     }
-    canvas.text(x + swatch, y, entry.name, small, palette.ink);
-    x += swatch + canvas.text_width(entry.name, small) + small * 1.3;
+    canvas_.text(x + swatch(), y, entry.name, small_, palette.ink);
   }
-}
+
+  Canvas& canvas_;
+  double small_;  // letters
+  std::vector<std::vector<Entry>> rows_{1};
+};
 
 void draw_levels(Canvas& canvas, const Panel& panel, const Frame& frame, const Palette& palette,
                  double font_size) {
@@ -276,9 +306,11 @@ void draw_levels(Canvas& canvas, const Panel& panel, const Frame& frame, const P
     const double small = font_size * 0.75;
     const double width = canvas.text_width(level.name, small);
     const double right = plot.x + plot.width - font_size * 0.3;
-    canvas.fill(right - width - 1.0, at - font_size * 0.95, width + 2.0, font_size * 0.85,
+    const double below = level.y < 0.0 ? font_size : 0.0;  // of the line, away from the other one
+    canvas.fill(right - width - 1.0, at + below - font_size * 0.95, width + 2.0, font_size * 0.85,
                 palette.ground.with_alpha(0.8));
-    canvas.text(right, at - font_size * 0.25, level.name, small, palette.ink, Align::kRight);
+    canvas.text(right, at + below - font_size * 0.25, level.name, small, palette.ink,
+                Align::kRight);
   }
 }
 
@@ -287,7 +319,8 @@ void draw_levels(Canvas& canvas, const Panel& panel, const Frame& frame, const P
 void draw_panel(Canvas& canvas, const Panel& panel, const Rectangle& place, const Palette& palette,
                 double font_size) {
   const double left = font_size * 5.2, right = font_size * 0.8;
-  const double top = font_size * 1.9, bottom = font_size * 3.0;
+  const Legend legend(canvas, panel, place.width - left - right, font_size);
+  const double top = font_size * 1.9 + legend.extra_height(), bottom = font_size * 3.0;
   const Rectangle plot{place.x + left, place.y + top, place.width - left - right,
                        place.height - top - bottom};
   const Frame frame(panel, plot, font_size);
@@ -304,7 +337,7 @@ void draw_panel(Canvas& canvas, const Panel& panel, const Rectangle& place, cons
   cairo_set_line_width(cairo, 0.8);
   cairo_rectangle(cairo, plot.x, plot.y, plot.width, plot.height);
   cairo_stroke(cairo);
-  draw_legend(canvas, panel, plot, place.y, palette, font_size);
+  legend.draw(plot.x + plot.width, place.y + font_size * 1.1, palette);
 }
 
 }  // namespace ghtrack::plot

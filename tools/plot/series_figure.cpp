@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -121,8 +122,12 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
     }
     figure.panels.push_back(std::move(error));
   }
-  figure.panels.push_back(
-      panel_of(series, labels, "rate" + suffix, "dx" + suffix, "dx" + suffix, Mark::kLine));
+  Panel rate = panel_of(series, labels, "rate" + suffix, "dx" + suffix, "dx" + suffix, Mark::kLine);
+  const bool has_rate = std::any_of(rate.curves.begin(), rate.curves.end(), [](const Curve& curve) {
+    return std::any_of(curve.y.begin(), curve.y.end(),
+                       [](double value) { return value != 0.0 && std::isfinite(value); });
+  });
+  if (has_rate) figure.panels.push_back(std::move(rate));  // places on a row have none
 }
 
 }  // namespace
