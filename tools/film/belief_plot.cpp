@@ -90,7 +90,9 @@ std::string belief_picture(const SeriesScene& scene, const SeriesResult& result)
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' "
       "viewBox='0 0 {0:.0f} {1:.0f}' font-family='sans-serif' font-size='14' fill='#0a4a7a'>\n"
       "<rect width='100%' height='100%' fill='white'/>\n"
-      "<text x='{2}' y='30' font-size='18'>{3}</text>\n{4}</svg>\n",
+      "<text x='{2}' y='26' font-size='18'>{3}</text>\n"
+      "<text x='{2}' y='46' font-size='12'>The darker a place, the more probable; a ring: where it "
+      "is</text>\n{4}</svg>\n",
       kWidth + 2.0 * kMargin, top, kMargin, escaped(scene.name), panels);
 }
 
