@@ -33,6 +33,9 @@ class Film final : public RunObserver {
   /// Scene times of all frames, and before them of those that pictures only remember [s].
   const std::vector<double>& frame_times() const { return times_; }
 
+  void add_observation(const TruthSnapshot& truth, const Observation& observation) override {
+    frames_.add_observation(truth, observation);
+  }
   void add_tracks(const StepRecord& record) override { frames_.add_tracks(record); }
   void add_frame(const TruthSnapshot& truth) override { frames_.add_frame(truth); }
 

@@ -16,6 +16,10 @@ FrameMaker::FrameMaker(const WorldScene& scene, const std::vector<ObjectInfo>& o
   frame_.panels.resize(shown.count);
 }
 
+void FrameMaker::add_observation(const TruthSnapshot& truth, const Observation& /*observation*/) {
+  frame_.passed.push_back({.time = truth.time, .objects = truth.objects, .bodies = {}});
+}
+
 void FrameMaker::add_tracks(const StepRecord& record) {
   if (record.contender == 0) {
     latest_[record.observation.scan.sensor] = record.observation;
@@ -26,11 +30,13 @@ void FrameMaker::add_tracks(const StepRecord& record) {
   if (panel >= shown_.count) return;  // also before the first: the difference wraps around
   RunningScore& score = scores_[panel];
   if (record.is_in_order()) score.add(record.truth, record.tracks);
-  frame_.panels[panel] = {.tracks = record.tracks,
-                          .pairings = score.pairings(),
-                          .gospa = score.gospa(),
-                          .rmse = score.rmse(),
-                          .regimes = score.by_regime()};
+  render::PanelFrame& shown = frame_.panels[panel];
+  shown.arrived.push_back(record.tracks);
+  shown.tracks = record.tracks;
+  shown.pairings = score.pairings();
+  shown.gospa = score.gospa();
+  shown.rmse = score.rmse();
+  shown.regimes = score.by_regime();
 }
 
 void FrameMaker::add_frame(const TruthSnapshot& truth) {
@@ -40,6 +46,8 @@ void FrameMaker::add_frame(const TruthSnapshot& truth) {
   for (const auto& [sensor, observation] : latest_) frame_.observations.push_back(observation);
   on_frame_(frame_);
   frame_.arrived.clear();
+  frame_.passed.clear();
+  for (render::PanelFrame& panel : frame_.panels) panel.arrived.clear();
 }
 
 }  // namespace ghtrack::film

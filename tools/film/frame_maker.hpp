@@ -27,6 +27,7 @@ class FrameMaker final : public RunObserver {
   FrameMaker(const WorldScene& scene, const std::vector<ObjectInfo>& objects, const Shown& shown,
              OnFrame on_frame);
 
+  void add_observation(const TruthSnapshot& truth, const Observation& observation) override;
   void add_tracks(const StepRecord& record) override;
   void add_frame(const TruthSnapshot& truth) override;
 

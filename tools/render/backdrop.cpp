@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "tools/render/text.hpp"
 #include "tools/render/ticks.hpp"
@@ -29,13 +30,52 @@ double length_of(const std::vector<Pixel>& points) {
   return length;
 }
 
+/// Metres of the scale bar.
+double scale_bar_step(const Stage& stage) {
+  constexpr double kShortest = 36.0;  // [px]
+  return round_step(stage.style.length(kShortest) / stage.view.scale());
+}
+
+std::u32string scale_bar_text(const Stage& stage) {
+  const double step = scale_bar_step(stage);
+  return tick_label(step, step) + U" m";
+}
+
+bool overlap(const Viewport& a, const Viewport& b) {
+  return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
+}
+
+/// Whether part of a line is in an area (Liang & Barsky 1984).
+bool passes(const Pixel& from, const Pixel& to, const Viewport& area) {
+  double first = 0.0, last = 1.0;
+  const auto clip = [&](double start, double change, double low, double high) {
+    if (change == 0.0) {
+      if (start < low || start > high) last = -1.0;
+      return;
+    }
+    const double a = (low - start) / change, b = (high - start) / change;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  };
+  clip(from.x, to.x - from.x, area.left, area.right());
+  clip(from.y, to.y - from.y, area.top, area.bottom());
+  return first < last;
+}
+
 /// The name of a field of view, and where it is written.
 struct ViewName {
   std::u32string text;
   Pixel pen;
 };
 
-/// At the left end of its upper edge, as far as that is in the picture; several in rows.
+Viewport box_of(const ViewName& name, const Stage& stage) {
+  const int letters = stage.style.letters(kNameLetters);
+  const double width = stage.fonts.regular.width(name.text, letters);
+  return {name.pen.x, name.pen.y - letters, width, 1.3 * letters};
+}
+
+/// At the left end of its upper edge, as far as that is in the picture, beside close-ups; several in
+/// rows. What has no edge in the picture needs no name.
 std::vector<ViewName> view_names(const Stage& stage) {
   const int letters = stage.style.letters(kNameLetters);
   const Viewport& area = stage.view.viewport();
@@ -45,18 +85,26 @@ std::vector<ViewName> view_names(const Stage& stage) {
   for (const SensorDrawing& sensor : stage.scene.sensors) {
     if (sensor.field_of_view.size() < 3) continue;
     Pixel corner = stage.view.to_pixel(sensor.field_of_view.front());
+    Pixel last = stage.view.to_pixel(sensor.field_of_view.back());
+    bool is_visible = false;
     for (const Vec2& place : sensor.field_of_view) {
       const Pixel at = stage.view.to_pixel(place);
       if (at.y < corner.y - 0.5 || (at.y < corner.y + 0.5 && at.x < corner.x)) corner = at;
+      is_visible = is_visible || passes(last, at, area);
+      last = at;
     }
+    if (!is_visible) continue;
     const double row = 1.2 * letters * static_cast<double>(names.size());
-    names.push_back(
-        {U"seen by " + drawable(sensor.name, 24),
-         {std::clamp(corner.x + stage.style.length(5), left,
-                     std::max(left, area.right() - stage.style.length(150))),
-          std::clamp(corner.y + 1.25 * letters, top,
-                     std::max(top, area.bottom() - stage.style.length(40))) +
-              row}});
+    ViewName name{U"seen by " + drawable(sensor.name, 24),
+                  {std::clamp(corner.x + stage.style.length(5), left,
+                              std::max(left, area.right() - stage.style.length(150))),
+                   std::clamp(corner.y + 1.25 * letters, top,
+                              std::max(top, area.bottom() - stage.style.length(40))) +
+                       row}};
+    for (const Viewport& covered : stage.covered) {
+      if (overlap(box_of(name, stage), covered)) name.pen.x = covered.right() + stage.style.length(8);
+    }
+    names.push_back(std::move(name));
   }
   return names;
 }
@@ -149,40 +197,34 @@ class Backdrop {
   }
 
   void numbers() {
-    const Color color = theme_.axis_text;
     const int letters = style_.letters(13);
     const Viewport& area = view_.viewport();
+    const double end = scale_bar_box(stage_).left - style_.length(24);
     for (const double x : multiples(step_, world_.min.x(), world_.max.x())) {
       const Pixel pen{view_.to_pixel({x, 0.0}).x, area.bottom() - style_.length(6)};
-      if (pen.x > area.left + style_.length(44) &&
-          pen.x < area.right() - step_ * view_.scale() - style_.length(44))
-        canvas_.rimmed_text(fonts_.regular, tick_label(x, step_), letters, pen, color, theme_.world,
-                            Canvas::Align::kCentre);
+      if (pen.x > area.left + style_.length(44) && pen.x < end)
+        number(x, pen, letters, Canvas::Align::kCentre);
     }
     for (const double y : multiples(step_, world_.min.y(), world_.max.y())) {
       const Pixel pen{area.left + style_.length(6), view_.to_pixel({0.0, y}).y + 0.35 * letters};
       if (pen.y > area.top + style_.length(18) && pen.y < area.bottom() - style_.length(24))
-        canvas_.rimmed_text(fonts_.regular, tick_label(y, step_), letters, pen, color,
-                            theme_.world);
+        number(y, pen, letters, Canvas::Align::kLeft);
     }
   }
 
-  void scale_bar() {
-    const Viewport box = scale_bar_box(stage_);
-    const double edge = style_.length(6);
-    const double left = box.left + edge;
-    const double right = box.right() - edge;
-    const double y = box.bottom() - edge;
-    const double tick = style_.length(5);
-    canvas_.rectangle(box, {theme_.world, 0.7});
-    canvas_.polyline({{left, y - tick}, {left, y}, {right, y}, {right, y - tick}}, theme_.muted_text,
-                     style_.length(2));
-    canvas_.text(fonts_.regular, tick_label(step_, step_) + U" m", style_.letters(14),
-                 {0.5 * (left + right), y - style_.length(7)}, theme_.muted_text,
-                 Canvas::Align::kCentre);
+ private:
+  /// Of an axis, unless a close-up would cut it.
+  void number(double value, const Pixel& pen, int letters, Canvas::Align align) {
+    const std::u32string text = tick_label(value, step_);
+    const double width = fonts_.regular.width(text, letters);
+    const double left = align == Canvas::Align::kCentre ? pen.x - 0.5 * width : pen.x;
+    const Viewport box{left, pen.y - letters, width, 1.3 * letters};
+    for (const Viewport& covered : stage_.covered) {
+      if (overlap(box, covered)) return;
+    }
+    canvas_.rimmed_text(fonts_.regular, text, letters, pen, theme_.axis_text, theme_.world, align);
   }
 
- private:
   bool is_inside(const Pixel& at) const {
     const Viewport& area = view_.viewport();
     return at.x >= area.left && at.x < area.right() && at.y >= area.top && at.y < area.bottom();
@@ -276,27 +318,39 @@ void draw_backdrop(Canvas& canvas, const Stage& stage, AxisNumbers numbers) {
     backdrop.sites_of_sensors();
     if (numbers == AxisNumbers::kShown) backdrop.names_of_views();
   }
-  if (!stage.shows(Layer::kGrid)) return;
-  if (numbers == AxisNumbers::kShown) backdrop.numbers();
-  backdrop.scale_bar();
+  if (stage.shows(Layer::kGrid) && numbers == AxisNumbers::kShown) backdrop.numbers();
 }
 
 std::vector<Viewport> view_name_boxes(const Stage& stage) {
-  const int letters = stage.style.letters(kNameLetters);
   std::vector<Viewport> boxes;
-  for (const ViewName& name : view_names(stage)) {
-    const double width = stage.fonts.regular.width(name.text, letters);
-    boxes.push_back({name.pen.x, name.pen.y - letters, width, 1.3 * letters});
-  }
+  for (const ViewName& name : view_names(stage)) boxes.push_back(box_of(name, stage));
   return boxes;
 }
 
 Viewport scale_bar_box(const Stage& stage) {
   const Viewport& area = stage.view.viewport();
-  const double margin = stage.style.length(8);
-  const double width = major_step(stage) * stage.view.scale() + stage.style.length(12);
-  const double height = stage.style.length(32);
+  const int letters = stage.style.letters(kNameLetters);
+  const double margin = stage.style.length(4);
+  const double width = scale_bar_step(stage) * stage.view.scale() +
+                       stage.fonts.regular.width(scale_bar_text(stage), letters) +
+                       stage.style.length(20);
+  const double height = 1.5 * letters;
   return {area.right() - margin - width, area.bottom() - margin - height, width, height};
+}
+
+void draw_scale_bar(Canvas& canvas, const Stage& stage) {
+  const Viewport box = scale_bar_box(stage);
+  const Theme& theme = stage.style.theme();
+  const double edge = stage.style.length(6);
+  const double right = box.right() - edge;
+  const double left = right - scale_bar_step(stage) * stage.view.scale();
+  const double low = box.bottom() - 0.3 * box.height;
+  const double high = low - stage.style.length(6);
+  canvas.rectangle(box, {theme.world, 0.8});
+  canvas.polyline({{left, high}, {left, low}, {right, low}, {right, high}}, theme.muted_text,
+                  stage.style.length(2));
+  canvas.text(stage.fonts.regular, scale_bar_text(stage), stage.style.letters(kNameLetters),
+              {box.left + edge, low}, theme.muted_text);
 }
 
 }  // namespace ghtrack::render

@@ -82,14 +82,15 @@ Picture::Picture(const VideoOptions& options, const SceneDrawing& scene)
   }
 }
 
-Stage Picture::stage_of(const View& view) const {
-  return {view, scene_, options_.layers, panel_style_, fonts_};
+Stage Picture::stage_of(const View& view, std::span<const Viewport> covered) const {
+  return {view, scene_, options_.layers, panel_style_, fonts_, covered};
 }
 
 void Picture::remember(const VideoFrame& frame) {
   take_note_of(frame);
   for (std::size_t i = 0; i < panels_.size() && i < frame.panels.size(); ++i) {
-    write_labels(nullptr, stage_of(camera_.view(frame.time, layout_.panels[i])), frame, i);
+    const View view = camera_.view(frame.time, layout_.panels[i]);
+    write_labels(nullptr, stage_of(view, layout_.close_ups[i]), frame, i);
   }
 }
 
@@ -130,7 +131,7 @@ void Picture::draw(const VideoFrame& frame, cv::Mat& image) {
     if (panel.gospa && (!best || *panel.gospa < *best)) best = panel.gospa;
   }
   for (std::size_t i = 0; i < panels_.size() && i < frame.panels.size(); ++i) {
-    const Stage stage = stage_of(still_views_[i]);
+    const Stage stage = stage_of(still_views_[i], layout_.close_ups[i]);
     Canvas part = canvas.within(layout_.panels[i]);
     draw_world(part, stage, frame, i);
     write_labels(&part, stage, frame, i);
@@ -156,9 +157,9 @@ void Picture::draw_still_parts(std::vector<View> views) {
   still_parts_.create(options_.height, options_.width, CV_8UC3);
   Canvas canvas(still_parts_);
   canvas.fill(style_.theme().page);
-  for (const View& view : still_views_) {
-    Canvas panel = canvas.within(view.viewport());
-    draw_backdrop(panel, stage_of(view), AxisNumbers::kShown);
+  for (std::size_t i = 0; i < still_views_.size(); ++i) {
+    Canvas panel = canvas.within(still_views_[i].viewport());
+    draw_backdrop(panel, stage_of(still_views_[i], layout_.close_ups[i]), AxisNumbers::kShown);
   }
   legend_.draw(canvas, layout_.legend);
 }
@@ -172,6 +173,7 @@ void Picture::draw_world(Canvas& canvas, const Stage& stage, const VideoFrame& f
   if (stage.shows(Layer::kSmoothed) && panel < scene_.smoothed.size())
     draw_smoothed(canvas, stage, panels_[panel].memory, scene_.smoothed[panel], frame.time);
   draw_tracks(canvas, stage, panels_[panel].memory, frame, frame.panels[panel]);
+  if (stage.shows(Layer::kGrid)) draw_scale_bar(canvas, stage);
 }
 
 void Picture::draw_detections(Canvas& canvas, const Stage& stage, const VideoFrame& frame) const {
@@ -225,7 +227,7 @@ void Picture::draw_close_up(Canvas& canvas, const View& view, const VideoFrame& 
   around.outline(outline({from.x, from.y, to.x - from.x, to.y - from.y}), {style_.theme().muted_text, 0.8},
                 style_.length(1));
 
-  const Stage stage = stage_of(view);
+  const Stage stage = stage_of(view, {});
   Canvas part = canvas.within(view.viewport());
   draw_backdrop(part, stage, AxisNumbers::kHidden);
   draw_world(part, stage, frame, panel);

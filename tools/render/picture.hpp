@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tools/render/camera.hpp"
@@ -39,7 +40,7 @@ class Picture {
     TrackMemory memory;
     TrackLabels labels;
   };
-  Stage stage_of(const View& view) const;
+  Stage stage_of(const View& view, std::span<const Viewport> covered) const;
   void take_note_of(const VideoFrame& frame);
   void write_labels(Canvas* canvas, const Stage& stage, const VideoFrame& frame, std::size_t panel);
   void draw_still_parts(std::vector<View> views);

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kMostOfPath = 400.0;     // of a path: no picture resolves more
 constexpr std::size_t kMostMarks = 1500;  // more would be a carpet
-constexpr double kJump = 1.0;             // [s] without an object: a new path
 
 }  // namespace
 
@@ -23,13 +22,8 @@ double SceneMemory::age(double time) const {
 
 void SceneMemory::remember(const VideoFrame& frame) {
   now_ = frame.time;
-  for (const TruthState& object : frame.truth.objects) {
-    auto& path = paths_[object.id];
-    if (!path.empty() && frame.time - path.back().first > kJump) path.clear();
-    const bool is_due = path.size() < 2 || frame.time - path[path.size() - 2].first >= step_;
-    if (!is_due) path.pop_back();  // the latest point is always there
-    path.emplace_back(frame.time, object.position);
-  }
+  for (const TruthSnapshot& truth : frame.passed) remember(truth);
+  remember(frame.truth);
   for (const Observation& observation : frame.arrived) {
     for (std::size_t i = 0; i < observation.scan.detections.size(); ++i) {
       if (i < observation.origins.size() && observation.origins[i] == kClutterOrigin) continue;
@@ -43,6 +37,17 @@ void SceneMemory::remember(const VideoFrame& frame) {
   for (auto& [id, path] : paths_) {
     while (!path.empty() && age(path.front().first) >= 1.0) path.pop_front();
   }
+}
+
+void SceneMemory::remember(const TruthSnapshot& truth) {
+  for (const TruthState& object : truth.objects) {
+    auto& path = paths_[object.id];
+    if (!path.empty() && path.back().first < known_) path.clear();  // it was not there
+    const bool is_due = path.size() < 2 || truth.time - path[path.size() - 2].first >= step_;
+    if (!is_due) path.pop_back();  // the latest point is always there
+    path.emplace_back(truth.time, object.position);
+  }
+  known_ = truth.time;
 }
 
 void SceneMemory::draw(Canvas& canvas, const Stage& stage) const {

@@ -28,11 +28,13 @@ class SceneMemory {
     Vec2 position;
     int sensor;
   };
+  void remember(const TruthSnapshot& truth);
   double age(double time) const;
 
   double trail_;
   double step_;  // [s] between points that are kept of a path
   double now_ = 0.0;
+  double known_ = 0.0;  // [s] of the latest truth
   std::map<ObjectId, std::deque<std::pair<double, Vec2>>> paths_;
   std::deque<Mark> marks_;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "tools/render/style.hpp"
 #include "tools/render/view.hpp"
 
@@ -12,6 +14,7 @@ struct Stage {
   Layers layers;
   const Style& style;
   const Typefaces& fonts;
+  std::span<const Viewport> covered = {};  // by close-ups
 
   bool shows(Layer layer) const { return layers.shows(layer); }
 };

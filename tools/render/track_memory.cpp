@@ -48,36 +48,40 @@ double TrackMemory::event_age(double time) const {
 }
 
 /// The colour of the object that it follows, unless another track has it: tracks that are alive
-/// together look different as long as there are colours.
+/// together look different as long as there are colours. Else one that is nobody's, if there is.
 std::size_t TrackMemory::color_for(const Trace& new_trace) const {
-  std::array<int, std::tuple_size_v<decltype(Theme::tracks)>> uses{};
+  struct Use {
+    int tracks = 0, objects = 0;
+    auto operator<=>(const Use&) const = default;
+  };
+  std::array<Use, std::tuple_size_v<decltype(Theme::tracks)>> uses{};
   for (const auto& [id, trace] : traces_) {
-    if (trace.color) ++uses[*trace.color];
+    if (trace.color) ++uses[*trace.color].tracks;
   }
-  if (new_trace.object) {
-    const std::size_t own = static_cast<std::size_t>(*new_trace.object) % uses.size();
-    if (uses[own] == *std::min_element(uses.begin(), uses.end())) return own;
-  }
-  return static_cast<std::size_t>(std::min_element(uses.begin(), uses.end()) - uses.begin());
-}
-
-std::u32string TrackMemory::name_of(const TrackEstimate& track) const {
-  const auto trace = traces_.find(track.id);
-  if (trace != traces_.end() && trace->second.object) {
-    for (const ObjectInfo& object : objects_) {
-      if (object.id == *trace->second.object) return drawable(object.name, 24);
-    }
-  }
-  return number_of(track);
+  for (const auto& [object, color] : colors_) ++uses[color].objects;
+  const auto least = std::min_element(uses.begin(), uses.end());
+  const auto own = new_trace.object ? colors_.find(*new_trace.object) : colors_.end();
+  if (own != colors_.end() && uses[own->second].tracks == least->tracks) return own->second;
+  return static_cast<std::size_t>(least - uses.begin());
 }
 
 /// The first track of an object goes by its name. A later one shows its number, too: the name alone
 /// would hide that the identity was lost. Numbers are those of the files, where tracks that are counted
 /// have one from their birth on, so that most of them are skipped in pictures.
+std::u32string TrackMemory::name_of(const TrackEstimate& track) const {
+  const auto trace = traces_.find(track.id);
+  if (trace == traces_.end() || !trace->second.object) return number_of(track);
+  for (const ObjectInfo& object : objects_) {
+    if (object.id != *trace->second.object) continue;
+    const std::u32string name = drawable(object.name, 24);
+    return trace->second.succeeds ? name + U" " + number_of(track) : name;
+  }
+  return number_of(track);
+}
+
 std::u32string TrackMemory::label_text(const Trace& trace) const {
   const TrackEstimate& track = trace.last;
   std::u32string text = name_of(track);
-  if (trace.succeeds) text += U" " + number_of(track);
   if (manner_.color) return text;  // among several panels space is short
   const std::u32string label = drawable(track.label, 16);
   if (!label.empty() && !trace.object) text += U" " + label;
@@ -135,12 +139,15 @@ void TrackMemory::note_objects(const PanelFrame& panel) {
   }
 }
 
-/// Its trail stays until it has faded.
-void TrackMemory::end(const Trace& trace) {
-  if (trace.last.status == TrackStatus::kTentative) return;
-  const Color color = color_of(trace.last);
-  events_.push_back({Happening::kLost, snapshot_time_, trace.last.position, color});
-  past_.push_back({trace.trail, color});
+/// Trails of tracks that have ended stay until they have faded.
+void TrackMemory::end_unseen() {
+  for (const auto& [id, trace] : traces_) {
+    if (trace.seen || trace.last.status == TrackStatus::kTentative) continue;
+    const Color color = color_of(trace.last);
+    events_.push_back({Happening::kLost, snapshot_time_, trace.last.position, color});
+    past_.push_back({trace.trail, color});
+  }
+  std::erase_if(traces_, [](const auto& entry) { return !entry.second.seen; });
 }
 
 void TrackMemory::update_label(Trace& trace, double now, double since) const {
@@ -156,13 +163,14 @@ void TrackMemory::update_label(Trace& trace, double now, double since) const {
 void TrackMemory::remember(const VideoFrame& frame, const PanelFrame& panel) {
   const double since = std::max(0.0, frame.time - now_.value_or(frame.time));
   now_ = frame.time;
+  for (std::size_t i = 0; i + 1 < panel.arrived.size(); ++i) {
+    take(panel.arrived[i]);
+    end_unseen();
+  }
   if (panel.tracks.time > snapshot_time_ || panel.tracks.sensor != snapshot_sensor_) {
     take(panel.tracks);
     note_objects(panel);
-    for (const auto& [id, trace] : traces_) {
-      if (!trace.seen) end(trace);
-    }
-    std::erase_if(traces_, [](const auto& entry) { return !entry.second.seen; });
+    end_unseen();
   }
   for (auto& [id, trace] : traces_) {
     while (!trace.trail.empty() && trail_age(trace.trail.front().first) >= 1.0)

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/render/object_colors.hpp"
 #include "tools/render/palette.hpp"
 #include "tools/render/video.hpp"
 
@@ -54,7 +55,7 @@ class TrackMemory {
 
   /// @param objects  by whom labels are named and colours are chosen
   TrackMemory(const Manner& manner, const std::vector<ObjectInfo>& objects)
-      : manner_(manner), objects_(objects) {}
+      : manner_(manner), objects_(objects), colors_(object_colors(objects)) {}
 
   /// Takes note of a frame; once for each, in the order of time.
   void remember(const VideoFrame& frame, const PanelFrame& panel);
@@ -63,7 +64,7 @@ class TrackMemory {
   const std::vector<Past>& past() const { return past_; }  // of tracks that have ended
   const std::vector<Event>& events() const { return events_; }
   Color color_of(const TrackEstimate& track) const;
-  /// Whom it follows, or else its number.
+  /// Whom it follows, with its number if it took over from another track; or else its number.
   std::u32string name_of(const TrackEstimate& track) const;
 
   /// How far something of that time has faded, from 0 to 1.
@@ -73,7 +74,7 @@ class TrackMemory {
  private:
   void take(const TrackSnapshot& tracks);
   void note_objects(const PanelFrame& panel);
-  void end(const Trace& trace);
+  void end_unseen();
   void update_label(Trace& trace, double now, double since) const;
   std::size_t color_for(const Trace& new_trace) const;
   std::u32string label_text(const Trace& trace) const;
@@ -81,6 +82,7 @@ class TrackMemory {
 
   Manner manner_;
   const std::vector<ObjectInfo>& objects_;
+  std::map<ObjectId, std::size_t> colors_;  // of the palette, that stand for objects
   std::map<int, Trace> traces_;
   std::map<ObjectId, int> track_of_object_;
   std::vector<Past> past_;

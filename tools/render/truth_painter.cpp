@@ -106,7 +106,7 @@ double drawn_radius(const Outline& outline, const View& view, const Style& style
 }
 
 void draw_truth(Canvas& canvas, const Stage& stage, const TruthSnapshot& truth) {
-  const auto& [view, scene, layers, style, fonts] = stage;
+  const auto& [view, scene, layers, style, fonts, covered] = stage;
   for (const BodyPose& body : truth.bodies) {
     const ObjectInfo* const object = find(scene, body.id);
     if (object == nullptr) continue;

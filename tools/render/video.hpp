@@ -135,6 +135,7 @@ struct Pairing {
 /// What one tracker says at the time of a frame.
 struct PanelFrame {
   TrackSnapshot tracks;           // the latest at the frame's time
+  std::vector<TrackSnapshot> arrived;  // all since the frame before, with the latest
   std::vector<Pairing> pairings;  // of that snapshot
   std::optional<double> gospa;    // [m], running; shown if given
   std::optional<double> rmse;     // [m] of the positions, running; shown and plotted if given
@@ -147,6 +148,7 @@ struct VideoFrame {
   TruthSnapshot truth;                    // at this time
   std::vector<Observation> observations;  // the latest scan of every sensor that has reported
   std::vector<Observation> arrived;       // all scans since the frame before
+  std::vector<TruthSnapshot> passed;      // the truth at scans since the frame before
   std::vector<PanelFrame> panels;         // in the order of SceneDrawing::panels, at least one
   std::size_t scans = 0;                  // until now, of all sensors
 };

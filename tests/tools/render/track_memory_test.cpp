@@ -79,5 +79,34 @@ TEST(TrackMemory, NumbersTracksWhereNamesDoNotTellThemApart) {
   EXPECT_EQ(label_of(2.0, 90, std::nullopt), U"#90 0.0 m/s");
 }
 
+// Property: a trail goes through what was said of every scan, however few of them a frame is drawn at.
+TEST(TrackMemory, KeepsEveryScanOfATrail) {
+  const std::vector<ObjectInfo> named = objects();
+  TrackMemory memory({}, named);
+  const auto snapshot = [](int scan) {
+    TrackSnapshot tracks;
+    tracks.time = 0.1 * scan;
+    TrackEstimate& track = tracks.tracks.emplace_back();
+    track.id = 1;
+    track.status = TrackStatus::kConfirmed;
+    track.position = Vec2(scan, scan * scan);
+    return tracks;
+  };
+  int scan = 0;
+  for (const int until : {1, 11, 12, 20}) {
+    PanelFrame panel;
+    for (; scan < until; ++scan) panel.arrived.push_back(snapshot(scan));
+    panel.tracks = panel.arrived.back();
+    VideoFrame frame;
+    frame.time = panel.tracks.time;
+    memory.remember(frame, panel);
+  }
+  const auto& trail = memory.traces().at(1).trail;
+  ASSERT_EQ(trail.size(), 20U);
+  for (std::size_t i = 0; i < trail.size(); ++i) {
+    EXPECT_EQ(trail[i].second, Vec2(1.0 * i, 1.0 * i * i));
+  }
+}
+
 }  // namespace
 }  // namespace ghtrack::render
