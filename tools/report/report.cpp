@@ -130,7 +130,7 @@ std::string comparison_report(const Comparison& comparison, const ReportOptions&
                               {"size", count_of(comparison.cells.size(), "setting") + ", " +
                                            count_of(comparison.filters.size(), "filter")},
                               {"tables", report::summary_tables(comparison)},
-                              {"reference_names", report::reference_names()},
+                              {"reference_names", report::reference_names(comparison)},
                               {"prediction", figure(report::prediction_figure(comparison))},
                               {"cells", cells_of(comparison, options)},
                               {"meanings", metric_meanings()}},

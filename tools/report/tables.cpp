@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <vector>
 #include <utility>
 
 #include "tools/report/figures.hpp"
@@ -63,11 +65,22 @@ Json value_cells(const std::vector<std::size_t>& filters, const RowsByFilter& ro
   return values;
 }
 
-/// What the errors of a row may be held against.
-Json reference_cells(const RowsByFilter& rows) {
+/// What the errors may be held against, as far as it is known of anything.
+std::vector<Reference> references_in(const Comparison& comparison) {
+  std::vector<Reference> known;
+  for (const Reference& reference : kReferences) {
+    if (std::any_of(comparison.rows.begin(), comparison.rows.end(), [&](const ComparisonRow& row) {
+          return (row.hindsight.*reference.value).has_value();
+        }))
+      known.push_back(reference);
+  }
+  return known;
+}
+
+Json reference_cells(const std::vector<Reference>& references, const RowsByFilter& rows) {
   const Hindsight& hindsight = rows.begin()->second->hindsight;
   Json cells = Json::array();
-  for (const Reference& reference : kReferences) {
+  for (const Reference& reference : references) {
     const std::optional<double>& rmse = hindsight.*reference.value;
     cells.push_back({{"text", number(rmse)}, {"sort", sort_key(rmse)}});
   }
@@ -103,9 +116,9 @@ std::string mean_text(const ComparisonRow& row, std::int64_t all) {
 
 std::string cell_id(std::size_t cell) { return fmt::format("scene-{}", cell + 1); }
 
-nlohmann::json reference_names() {
+nlohmann::json reference_names(const Comparison& comparison) {
   Json names = Json::array();
-  for (const Reference& reference : kReferences) names.push_back({{"title", reference.title}});
+  for (const Reference& reference : references_in(comparison)) names.push_back({{"title", reference.title}});
   return names;
 }
 
@@ -114,6 +127,7 @@ nlohmann::json filters_of(const Comparison& comparison, std::size_t cell) {
 }
 
 nlohmann::json summary_tables(const Comparison& comparison) {
+  const std::vector<Reference> references = references_in(comparison);
   std::map<std::pair<std::size_t, std::string>, RowsByFilter> lines;
   for (const ComparisonRow& row : comparison.rows) {
     if (row.metric != Metric::kRmsePosition || row.regime.empty() || !row.object.empty()) continue;
@@ -132,7 +146,7 @@ nlohmann::json summary_tables(const Comparison& comparison) {
                       {"href", "#" + cell_id(i)},
                       {"regime", regime},
                       {"values", value_cells(filters, line->second)},
-                      {"references", reference_cells(line->second)}});
+                      {"references", reference_cells(references, line->second)}});
     }
   }
   Json all = Json::array();
@@ -171,13 +185,14 @@ nlohmann::json object_table(const Comparison& comparison, std::size_t cell) {
     lines.back().second[row.filter] = &row;
   }
   const std::vector<std::size_t> filters = filters_in(comparison, cell);
+  const std::vector<Reference> references = references_in(comparison);
   Json rows = Json::array();
   for (const auto& [subject, by_filter] : lines) {
     if (rows.size() == kMostObjects) break;
     rows.push_back({{"object", subject.second},
                     {"regime", subject.first},
                     {"values", value_cells(filters, by_filter)},
-                    {"references", reference_cells(by_filter)}});
+                    {"references", reference_cells(references, by_filter)}});
   }
   const std::size_t left_out = lines.size() - rows.size();
   return {{"filters", named(comparison, filters)},

@@ -22,7 +22,7 @@ nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell);
 nlohmann::json object_table(const Comparison& comparison, std::size_t cell);
 
 /// [{title}] of `references`, which are [{text, sort}]: what errors may be held against.
-nlohmann::json reference_names();
+nlohmann::json reference_names(const Comparison& comparison);
 
 /// [{name, css}] of the filters that the cell has rows of.
 nlohmann::json filters_of(const Comparison& comparison, std::size_t cell);
