@@ -1,5 +1,7 @@
 #include "tools/page/page.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,6 +17,8 @@
 #include "tools/html/template.hpp"
 #include "tools/page/forms.hpp"
 #include "tools/page/recording.hpp"
+#include "tools/render/object_colors.hpp"
+#include "tools/render/palette.hpp"
 #include "tools/run/schedule.hpp"
 
 namespace ghtrack::embedded {
@@ -84,6 +88,22 @@ nlohmann::json scenery(const render::SceneDrawing& drawing) {
   return json;
 }
 
+/// The colours of tracks as pages know them.
+nlohmann::json hues_of(const render::Theme& theme) {
+  nlohmann::json hues = nlohmann::json::array();
+  for (const auto& [red, green, blue] : theme.tracks) {
+    hues.push_back(fmt::format("#{:02x}{:02x}{:02x}", red, green, blue));
+  }
+  return hues;
+}
+
+/// Those of videos, and which of them stands for which object.
+nlohmann::json palette(const std::vector<ObjectInfo>& objects) {
+  nlohmann::json own = nlohmann::json::array();
+  for (const auto& [object, color] : render::object_colors(objects)) own.push_back(color);
+  return {{"dark", hues_of(render::kDark)}, {"light", hues_of(render::kLight)}, {"own", own}};
+}
+
 template <class T>
 nlohmann::ordered_json as_json(const T& value) {
   return schema::to_json(schema::type_of<T>(), &value);
@@ -138,6 +158,7 @@ std::string scene_page(const WorldScene& scene, const PageOptions& options,
       {"duration", scene.duration},
       {"seed", std::to_string(scene.seed)},
       {"scenery", scenery(drawing)},
+      {"palette", palette(truth.objects)},
       {"sensors", as_json(scene.sensors)},
       {"tracker", as_json(scene.tracker)},
       {"compare", compared},
@@ -164,7 +185,10 @@ std::string scene_page(const WorldScene& scene, const PageOptions& options,
 std::string series_page(const SeriesScene& scene, const PageOptions& options) {
   check_that_nothing_is_missing();
   const nlohmann::json described = {
-      {"title", scene.name}, {"command", options.command}, {"series", as_json(scene)}};
+      {"title", scene.name},
+      {"command", options.command},
+      {"palette", palette({})},
+      {"series", as_json(scene)}};
   const html::Page page{
       .title = scene.name + " - ghtrack",
       .description = "Measurements and estimates of the series, with filters to be turned",

@@ -23,7 +23,7 @@
   const state = lab.state = {
     scene, objects, duration: scene.duration, scenery: scene.scenery,
     truth: new lab.Truth(truthBytes, objects.length),
-    camera: new lab.Camera(scene.scenery.world), colours: new lab.Palette(),
+    camera: new lab.Camera(scene.scenery.world), colours: new lab.Palette(scene.palette),
     time: 0, trail: 3, speed: 1, isPlaying: false,
     selected: -1, selectedTrack: [null, null], result: null,
     shows: (layer) => layers[layer],

@@ -2,7 +2,7 @@
 // A series of measurements, its filters, and sliders for every number that they have.
 (async () => {
   const { byId } = lab;
-  const { series: original, command } = JSON.parse(byId("lab-scene").textContent);
+  const { series: original, command, palette } = JSON.parse(byId("lab-scene").textContent);
   let engine;
   try {
     engine = new lab.Engine(await WebAssembly.compile(lab.bytesOf("lab-wasm")));
@@ -16,7 +16,7 @@
   let series = lab.copy(original);
   let chosen = series.filters.length - 1;
   let isDue = false;
-  const state = lab.state = { time: 0, duration: 1, colours: new lab.Palette(), seek(time) { state.time = time; draw(); } };
+  const state = lab.state = { time: 0, duration: 1, colours: new lab.Palette(palette), seek(time) { state.time = time; draw(); } };
 
   const points = (track, column) => track.t.map((t, i) => [t, track[column][i] ?? NaN]);
   const valueCurves = () => {
@@ -105,6 +105,16 @@
     return [Math.min(...z), Math.max(...z)];
   };
 
+  const meanings = { x0: "guess at the start", dx0: "guess of the rate", ddx0: "guess of the acceleration",
+    sigma: "1 sigma that it assumes", noise: "1 sigma", rate: "of the truth, a step", acceleration: "of the truth",
+    start: "of the truth" };
+
+  /** Whether a number of a filter makes a difference to what it says. */
+  function matters({ filter, k, order }, key) {
+    if (key === "sigma" || key === "initial_speed") return /kalman/.test(filter);
+    return key !== "ddx0" || k !== undefined || order === 2 || filter === "kalman-ca";
+  }
+
   function sliders(target, keys, prefix) {
     const [low, high] = span(), reach = Math.max(1, high - low);
     return keys.filter((key) => typeof target[key] === "number").map((key) => {
@@ -114,7 +124,7 @@
         x0: [low - reach, high + reach, "even"], dx0: [-rate, rate, "even"], ddx0: [-rate, rate, "even"],
         noise: [0, Math.max(1, 4 * value), "fine"], rate: [-rate, rate, "even"], acceleration: [-30, 30, "even"],
         start: [low - reach, high + reach, "even"] }[key] ?? [Math.abs(value || 1) / 50, Math.abs(value || 1) * 50, "factors"];
-      return lab.slider({ id: `lab-${prefix}-${key}`, label: key, meaning: "", unit: "",
+      return lab.slider({ id: `lab-${prefix}-${key}`, label: key, meaning: meanings[key] ?? "", unit: "",
         low: Math.min(range[0], value), high: Math.max(range[1], value), scale: range[2], value,
         onInput: (v) => { target[key] = v; redraw(); } });
     });
@@ -130,7 +140,7 @@
       return button;
     }));
     const filter = series.filters[chosen];
-    byId("lab-filter-sliders").replaceChildren(...sliders(filter, Object.keys(filter).filter((key) => key !== "sigma" || /kalman/.test(filter.filter)), "filter"));
+    byId("lab-filter-sliders").replaceChildren(...sliders(filter, Object.keys(filter).filter((key) => matters(filter, key)), "filter"));
     byId("lab-data").hidden = dataKey !== "generate";
     if (dataKey === "generate") {
       byId("lab-data-sliders").replaceChildren(...sliders(series.generate, ["noise", "rate", "acceleration", "start"], "data"));

@@ -1,14 +1,9 @@
 "use strict";
 // The world on a canvas: what is there, what was seen, what was made of it.
 
-/** Colours that stay apart on white and on black, also for most who see few colours. */
-lab.hues = ["#0072b2", "#d55e00", "#009e73", "#b8528e", "#b07d00", "#2f8fc4", "#7a6a00", "#c03a3a",
-  "#5a58c8", "#4c8c2b"];
-lab.darkHues = ["#56b4e9", "#ff8a3d", "#2fc795", "#e39ac6", "#f0b429", "#8fa8ff", "#e6dc5a",
-  "#ff7b7b", "#b6a6ff", "#9bd46a"];
-
 lab.Palette = class {
-  constructor() { this.refresh(); }
+  /** @param hues  { dark, light, own }: the colours, and which of them stands for which object */
+  constructor(hues) { this.hues = hues; this.refresh(); }
   refresh() {
     const style = getComputedStyle(document.documentElement);
     for (const name of ["page", "panel", "line", "grid", "text", "muted", "accent", "bad"]) {
@@ -19,8 +14,8 @@ lab.Palette = class {
   /** Of an object; -1: of nobody's track. */
   of(object) {
     if (object < 0) return this.bad;
-    const hues = this.isDark ? lab.darkHues : lab.hues;
-    return hues[object % hues.length];
+    const hues = this.isDark ? this.hues.dark : this.hues.light;
+    return hues[(this.hues.own[object] ?? object) % hues.length];
   }
 };
 
@@ -127,10 +122,12 @@ lab.WorldView = class {
     this.drawScale();
   }
 
-  line(points, close = false) {
+  line(points, close = false) { this.path(points.map(([x, y]) => [this.x(x), this.y(y)]), close); }
+
+  path(pixels, close = false) {
     const { pen } = this;
     pen.beginPath();
-    points.forEach(([x, y], i) => i === 0 ? pen.moveTo(this.x(x), this.y(y)) : pen.lineTo(this.x(x), this.y(y)));
+    pixels.forEach(([x, y], i) => i === 0 ? pen.moveTo(x, y) : pen.lineTo(x, y));
     if (close) pen.closePath();
   }
 
@@ -158,22 +155,33 @@ lab.WorldView = class {
     pen.fillStyle = colours.muted;
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
-    for (const [x, at] of upright) if (at > 40 && at < this.width - 40) pen.fillText(lab.short(x), at, this.height - 5);
+    const end = this.scaleBar().left - 18;
+    for (const [x, at] of upright) if (at > 40 && at < end) pen.fillText(lab.short(x), at, this.height - 5);
     pen.textAlign = "left";
     for (const [y, at] of level) if (at > 16 && at < this.height - 20) pen.fillText(lab.short(y), 4, at - 3);
   }
 
-  /** "m" and a bar to measure with. */
+  /** A bar to measure with, beside the numbers of the axis. */
+  scaleBar() {
+    const metres = lab.ticks(0, 100 / this.scale, 2).pop() ?? 1;
+    const length = metres * this.scale, text = `${lab.short(metres)} m`, right = this.width - 8;
+    this.pen.font = "12px system-ui, sans-serif";
+    return { text, right, start: right - length, left: right - length - 12 - this.pen.measureText(text).width };
+  }
+
   drawScale() {
     const { pen, state: { colours } } = this;
-    const metres = lab.ticks(0, 140 / this.scale, 2).pop() ?? 1;
-    const length = metres * this.scale, right = this.width - 12, top = 16;
+    const { text, right, start, left } = this.scaleBar(), low = this.height - 6;
+    pen.globalAlpha = 0.8;
+    pen.fillStyle = colours.page;
+    pen.fillRect(left, low - 13, right + 5 - left, 18);
+    pen.globalAlpha = 1;
     pen.strokeStyle = pen.fillStyle = colours.text;
     pen.lineWidth = 2;
-    pen.beginPath(); pen.moveTo(right - length, top); pen.lineTo(right, top); pen.stroke();
-    pen.textAlign = "right";
-    pen.font = "12px system-ui, sans-serif";
-    pen.fillText(`${lab.short(metres)} m`, right, top + 15);
+    this.path([[start, low - 5], [start, low], [right, low], [right, low - 5]]);
+    pen.stroke();
+    pen.textAlign = "left";
+    pen.fillText(text, left + 5, low);
   }
 
   drawScenery() {
@@ -224,7 +232,7 @@ lab.WorldView = class {
         pen.setLineDash([]);
         const top = sensor.view.reduce((a, b) => b[1] > a[1] || (b[1] === a[1] && b[0] < a[0]) ? b : a);
         pen.textAlign = "left";
-        const x = Math.min(Math.max(this.x(top[0]) + 4, 4), this.width - 120);
+        const x = Math.min(Math.max(this.x(top[0]) + 4, 36), this.width - 120);
         const y = Math.min(Math.max(this.y(top[1]) + 14, 14), this.height - 8);
         pen.fillText(`seen by ${sensor.name}`, x, y + 14 * (i % 3));
       }
