@@ -150,6 +150,29 @@ Scene read_scene_text(std::string_view text, const std::string& name,
   return std::move(file.scene);
 }
 
+std::string place_of(const std::filesystem::path& file, std::string_view key) {
+  const std::string name = schema::document_name(file);
+  const auto steps = schema::parse_path(key);
+  if (file == "-" || !steps) return printable(name);
+  std::vector<Diagnostic> found;
+  const schema::Node root = schema::parse_document(schema::read_document_bytes(file), name, found);
+  const schema::Node* node = &root;
+  schema::Position place;
+  for (const schema::PathStep& step : *steps) {
+    if (step.index && *step.index < node->items.size()) {
+      node = &node->items[*step.index];
+      place = node->position;
+    } else if (const schema::Node::Member* const member = node->find(step.key)) {
+      node = &member->value;
+      place = member->position;
+    } else {
+      break;
+    }
+  }
+  return place.line == 0 ? printable(name)
+                         : fmt::format("{}:{}:{}", printable(name), place.line, place.column);
+}
+
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
   return read_scene_text(schema::read_document_bytes(file), schema::document_name(file), overrides);
 }

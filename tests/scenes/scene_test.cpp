@@ -137,6 +137,15 @@ TEST(Scene, NamesWhatHasNoName) {
   EXPECT_THAT(write_scene(scene), HasSubstr("name: balloon 2\n"));
 }
 
+// Derived: the first lines of the file, counted.
+TEST(Scene, TellsWhereAKeyStands) {
+  const fs::path file = kRoot / "tests/scenes/accepted/everything.yaml";
+  EXPECT_EQ(place_of(file, "physics.rate"), file.string() + ":5:11");
+  EXPECT_EQ(place_of(file, "world.air.density"), file.string() + ":8:9");
+  EXPECT_EQ(place_of(file, "physics.not_there"), file.string() + ":5:1");
+  EXPECT_EQ(place_of(file, "not_there"), file.string());
+}
+
 // Recorded: the leading comment of each file is the whole message; write a new one there by hand
 // when the wording changes.
 TEST(Scene, IsRefusedWithTheExactMessage) {

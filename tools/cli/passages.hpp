@@ -12,7 +12,13 @@ namespace ghtrack::cli {
 /// @param event  of that kind
 std::string told_of_passage(const WorldEvent& event, const std::vector<ObjectInfo>& objects);
 
-/// What the user of a scene would be told of in a run, found out by its trains alone.
-std::vector<std::string> foreseen_passages(const WorldScene& scene);
+/// A passage that a run of the scene would have.
+struct ForeseenPassage {
+  std::string key;   // of the later of the two trains: "targets[1]"
+  std::string told;  // what the user is told of it
+};
+
+/// Found out by the scene's trains alone.
+std::vector<ForeseenPassage> foreseen_passages(const WorldScene& scene);
 
 }  // namespace ghtrack::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/schema/diagnostic.hpp"
+#include "scenes/schema/reader.hpp"
 #include "scenes/schema/writer.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/messages.hpp"
@@ -36,17 +37,18 @@ void warn_of_tables(const std::string& file, const Scene& scene) {
   for (const auto& [label, filter] : world->tracker.filters) {
     const std::vector<SingleFilterConfig> filters = filters_of(world->tracker, label);
     if (std::none_of(filters.begin(), filters.end(), takes_gains_from_a_table)) continue;
-    tell("{}: warning: tracker.filters.{}: irregular_time: of the scans of {} sensors times and "
-         "accuracies differ, for which only gains-from-covariance is right",
-         file, label, world->sensors.size());
+    const std::string key = "tracker.filters." + label;
+    tell("{}: warning: {}: irregular_time: of the scans of {} sensors times and accuracies differ, "
+         "for which only gains-from-covariance is right",
+         place_of(file, key), key, world->sensors.size());
   }
 }
 
 void warn_of_passages(const std::string& file, const Scene& scene) {
   const auto* world = std::get_if<WorldScene>(&scene);
   if (world == nullptr) return;
-  for (const std::string& passage : foreseen_passages(*world)) {
-    tell("{}: warning: targets: {}", file, passage);
+  for (const auto& [key, told] : foreseen_passages(*world)) {
+    tell("{}: warning: {}: {}", place_of(file, key), key, told);
   }
 }
 
