@@ -173,22 +173,25 @@ TEST_F(Usage, HelpComesHoweverItIsAskedFor) {
   }
 }
 
+class HelpOf : public Usage, public ::testing::WithParamInterface<std::string> {};
+
 // Property: every example of every help works as it stands.
-TEST_F(Usage, ExamplesOfTheHelpWork) {
+TEST_P(HelpOf, ShowsExamplesThatWork) {
   fs::create_directories(folder() / "out");
-  for (const std::string& command : kCommands) {
-    bool is_example = false;
-    std::size_t examples = 0;
-    for (const std::string& line : lines_of(ghtrack(command + " --help").out)) {
-      is_example = (is_example || line == "Examples:") && !line.starts_with("With ");
-      if (!is_example || !line.starts_with("  ")) continue;
-      const Outcome outcome = shell(line, folder());
-      EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
-      ++examples;
-    }
-    EXPECT_GE(examples, 1U) << command;
+  bool is_example = false;
+  std::size_t examples = 0;
+  for (const std::string& line : lines_of(ghtrack(GetParam() + " --help").out)) {
+    is_example = (is_example || line == "Examples:") && !line.starts_with("With ");
+    if (!is_example || !line.starts_with("  ")) continue;
+    const Outcome outcome = shell(line, folder());
+    EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
+    ++examples;
   }
+  EXPECT_GE(examples, 1U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Commands, HelpOf, ::testing::ValuesIn(kCommands),
+                         [](const auto& command) { return command.param; });
 
 // Derived: tables fit the terminal that COLUMNS tells of, and 80 columns without one.
 TEST_F(Usage, TablesFitTheTerminal) {
