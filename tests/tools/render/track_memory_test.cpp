@@ -104,7 +104,8 @@ TEST(TrackMemory, KeepsEveryScanOfATrail) {
   const auto& trail = memory.traces().at(1).trail;
   ASSERT_EQ(trail.size(), 20U);
   for (std::size_t i = 0; i < trail.size(); ++i) {
-    EXPECT_EQ(trail[i].second, Vec2(1.0 * i, 1.0 * i * i));
+    const auto x = static_cast<double>(i);
+    EXPECT_EQ(trail[i].second, Vec2(x, x * x));
   }
 }
 
