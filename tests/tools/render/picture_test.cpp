@@ -89,7 +89,7 @@ TEST(Picture, HidesWhatIsToBeHidden) {
 }
 
 // Derived: an estimate's ring lies 10 px around its position; tracks that are alive together have
-// different colours, whatever their ids.
+// different colours, whatever their ids, and others than that of the ball, which they do not follow.
 TEST(Picture, DrawsEstimatesThatAreAliveTogetherInDifferentColours) {
   const VideoOptions options;
   const SceneDrawing scene = one_ball();
@@ -106,9 +106,9 @@ TEST(Picture, DrawsEstimatesThatAreAliveTogetherInDifferentColours) {
   const View view = view_of(options, scene);
   const Pixel at = view.to_pixel(track.position);
   const Pixel other_at = view.to_pixel(other.position);
-  EXPECT_EQ(color_at(image, {at.x + 10.0, at.y}), kDark.tracks[0]);
-  EXPECT_EQ(color_at(image, {at.x, at.y - 10.0}), kDark.tracks[0]);
-  EXPECT_EQ(color_at(image, {other_at.x + 10.0, other_at.y}), kDark.tracks[1]);
+  EXPECT_EQ(color_at(image, {at.x + 10.0, at.y}), kDark.tracks[1]);
+  EXPECT_EQ(color_at(image, {at.x, at.y - 10.0}), kDark.tracks[1]);
+  EXPECT_EQ(color_at(image, {other_at.x + 10.0, other_at.y}), kDark.tracks[2]);
 }
 
 // Derived: the wind is asked for above the ground only, at places that stand still in the world.
