@@ -396,6 +396,7 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
   const int wall_samples =
       static_cast<int>(std::clamp(std::ceil(4.0 * reach / body.radius), 4.0, 20000.0));
   constexpr int kGroundSamples = 4;  // nobody gets to the other side of the ground
+  constexpr double kRounding = 1e-12;  // slower [m/s] and less deep [m] it has just been hit
   const auto position_at = [&](double f) {
     const double g = 1.0 - f;
     return Vec2(g * g * (1.0 + 2.0 * f) * before.position +
@@ -451,7 +452,7 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
       const Vec2 position = position_at(f);
       const Contact contact = surfaces[i].contact(position);
       const double parting = closing(f, contact);
-      if (contact.distance < body.radius && parting < 0.0 &&
+      if (contact.distance < body.radius && parting < -kRounding &&
           !is_touched_already(contact, position)) {
         consider({static_cast<int>(i), clear, f});
         break;
@@ -466,12 +467,12 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
           (closing(middle, there) < 0.0 ? towards : nearest) = middle;
         }
         const Contact there = surfaces[i].contact(position_at(towards));
-        if (there.distance < body.radius && !is_touched_already(there, position_at(towards))) {
+        if (there.distance < body.radius - kRounding && !is_touched_already(there, position_at(towards))) {
           consider({static_cast<int>(i), clear, towards});
           break;
         }
       }
-      closes = parting < 0.0;
+      closes = parting < -kRounding;
       clear = f;
     }
   }
