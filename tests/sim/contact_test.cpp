@@ -448,7 +448,7 @@ TEST(Contact, FollowsABallThatRattlesInAGap) {
 // acceleration, and who has none touches something. The program energy_worlds tries as many as one
 // likes.
 TEST(Contact, NeverGainsEnergy) {
-  std::vector<std::uint64_t> seeds{2000002, 2000135, 2000456, 2000457, 2000694};  // failed once
+  std::vector<std::uint64_t> seeds{2000002, 2000135, 2000456, 2000457};  // failed once
   for (std::uint64_t seed = 0; seed < 24; ++seed) seeds.push_back(seed);
   for (const std::uint64_t seed : seeds) {
     const EnergyRun run = run_energy_world(seed);
@@ -457,6 +457,16 @@ TEST(Contact, NeverGainsEnergy) {
     EXPECT_LT(run.most_unrest, 1e-4) << seed;
     EXPECT_EQ(run.afloat, 0) << seed;
   }
+}
+
+// Property: a ball without restitution that hits the corner of a box goes on along it, and nobody
+// goes through it; it hung there with its speed, hitting again and again for nothing.
+TEST(Contact, LeavesACornerThatHasJustBeenHit) {
+  const EnergyRun run = run_energy_world(2000694);
+  EXPECT_LT(run.most_gained, 1e-9 * run.begun);
+  EXPECT_GT(run.lowest, -1e-6);
+  EXPECT_LT(run.most_unrest, 1e-4);
+  EXPECT_EQ(run.afloat, 0);
 }
 
 }  // namespace
