@@ -250,7 +250,7 @@ ExpectedError::Value ExpectedError::value(const TruthState& truth) const {
 ExpectedError::Value ExpectedError::value_of_shadows(const TruthState& truth) const {
   constexpr double kShare = 1.0 / kShadows;
   Value value{.innovation = innovation_};
-  auto& squares = value.shadows.emplace();
+  std::array<Value::Shadow, kShadows> squares;
   for (std::size_t i = 0; i < kShadows; ++i) {
     const Vec2 position = estimate(shadows_[i]).position - truth.position;
     const Vec2 velocity = estimate(shadows_[i]).velocity - truth.velocity;
@@ -262,6 +262,7 @@ ExpectedError::Value ExpectedError::value_of_shadows(const TruthState& truth) co
   }
   value.position_variance -= value.position.squaredNorm();
   value.velocity_variance -= value.velocity.squaredNorm();
+  value.shadows = squares;
   return value;
 }
 
