@@ -467,7 +467,8 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
           (closing(middle, there) < 0.0 ? towards : nearest) = middle;
         }
         const Contact there = surfaces[i].contact(position_at(towards));
-        if (there.distance < body.radius - kRounding && !is_touched_already(there, position_at(towards))) {
+        const bool overlaps = there.distance < body.radius - kRounding;
+        if (overlaps && !is_touched_already(there, position_at(towards))) {
           consider({static_cast<int>(i), clear, towards});
           break;
         }

@@ -38,12 +38,10 @@ bool is_of_fit(const Table& table, std::size_t column) {
 /// The column whose cells hold latitude and longitude, in a table without columns of their own.
 std::optional<std::size_t> place_column(const Table& table) {
   const ColumnMap& columns = table.columns();
-  const bool in_plane = columns.has(Role::kX) && columns.has(Role::kY);
-  const bool on_earth = columns.has(Role::kLatitude) && columns.has(Role::kLongitude);
   const auto place = columns.find(Role::kPlace);
   if (!place || columns.is_chosen(Role::kPlace)) return place;
-  const bool is_one = !in_plane && !on_earth && parse_place(table.first_cell(*place));
-  return is_one ? place : std::nullopt;
+  const bool has_others = columns.has_plane() || columns.has_degrees();
+  return !has_others && parse_place(table.first_cell(*place)) ? place : std::nullopt;
 }
 
 }  // namespace
@@ -52,8 +50,7 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
     : time_(table, options), origin_(origin) {
   const ColumnMap& columns = table.columns();
   const auto place = place_column(table);
-  geographic_ = place || (columns.has(Role::kLatitude) && columns.has(Role::kLongitude) &&
-                          !(columns.has(Role::kX) && columns.has(Role::kY)));
+  geographic_ = place || (columns.has_degrees() && !columns.has_plane());
   x_ = place ? *place : table.required(geographic_ ? Role::kLongitude : Role::kX);
   y_ = place ? *place : table.required(geographic_ ? Role::kLatitude : Role::kY);
   table.throw_missing_columns();

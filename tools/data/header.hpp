@@ -96,6 +96,8 @@ class ColumnMap {
 
   std::optional<std::size_t> find(Role role) const;
   bool has(Role role) const { return find(role).has_value(); }
+  bool has_plane() const { return has(Role::kX) && has(Role::kY); }
+  bool has_degrees() const { return has(Role::kLatitude) && has(Role::kLongitude); }
 
   /// Whether the column means something.
   bool has_role(std::size_t column) const;

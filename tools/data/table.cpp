@@ -76,12 +76,17 @@ void join_date_and_time(std::vector<std::string_view>& cells) {
 bool is_telling(const std::vector<Heading>& headings, const std::vector<ColumnChoice>& choices) {
   try {
     const ColumnMap map(headings, choices);
-    const bool in_plane = map.has(Role::kX) && map.has(Role::kY);
-    const bool on_earth = map.has(Role::kLatitude) && map.has(Role::kLongitude);
-    return (map.has(Role::kTime) || map.has(Role::kFrame)) && (in_plane || on_earth);
+    const bool has_time = map.has(Role::kTime) || map.has(Role::kFrame);
+    return has_time && (map.has_plane() || map.has_degrees());
   } catch (const ColumnError&) {  // a column that is there twice: not for this to say
     return false;
   }
+}
+
+std::vector<Heading> headings_in(const std::vector<std::string_view>& cells) {
+  std::vector<Heading> headings;
+  for (const std::string_view cell : cells) headings.push_back(parse_heading(cell));
+  return headings;
 }
 
 /// Where one name heads several columns, as X of a rotation and of a position, the row above tells
@@ -179,7 +184,7 @@ void Table::find_header(const std::string& last_comment) {
   if (dialect_.separator == ' ') join_units(cells_);
   has_header_ = !starts_with_value();
   if (has_header_) {
-    for (const std::string_view cell : cells_) headings_.push_back(parse_heading(cell));
+    headings_ = headings_in(cells_);
     first_row_ = 1;
     take_title_rows();
     while (first_row_ < sample_.size() && repeats_header(sample_[first_row_].text)) ++first_row_;
@@ -189,7 +194,7 @@ void Table::find_header(const std::string& last_comment) {
   const std::size_t count = cells_.size();
   split_cells(without_comment_sign(last_comment), dialect_.separator, cells_, owned_);
   if (count > 1 && cells_.size() == count) {
-    for (const std::string_view cell : cells_) headings_.push_back(parse_heading(cell));
+    headings_ = headings_in(cells_);
     const ColumnMap map(headings_, {});
     has_header_ = map.has(Role::kTime) || map.has(Role::kFrame) || map.has(Role::kX);
     if (has_header_) return;
@@ -235,13 +240,10 @@ bool Table::repeats_header(const std::string& line) {
   std::vector<std::string_view> cells;
   split_cells(line, dialect_.separator, cells, owned_);
   if (cells.size() != headings_.size()) return false;
-  std::vector<Heading> again;
-  for (const std::string_view cell : cells) again.push_back(parse_heading(cell));
   try {
     const ColumnMap map(headings_, {});
-    const ColumnMap repeated(again, {});
-    return repeated.has(Role::kX) && repeated.has(Role::kY) &&
-           repeated.find(Role::kX) == map.find(Role::kX) &&
+    const ColumnMap repeated(headings_in(cells), {});
+    return repeated.has_plane() && repeated.find(Role::kX) == map.find(Role::kX) &&
            repeated.find(Role::kY) == map.find(Role::kY);
   } catch (const ColumnError&) {
     return false;

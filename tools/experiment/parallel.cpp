@@ -42,11 +42,10 @@ void on_threads(int jobs, const std::function<void()>& work) {
 void in_parallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& task) {
   std::mutex mutex;  // of all below
   std::size_t next = 0;
-  std::size_t failed = count;
-  std::exception_ptr failure;
+  FirstFailure failure;
   on_threads(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(jobs), count)), [&] {
     std::unique_lock lock(mutex);
-    while (next < count && failed == count) {
+    while (next < count && !failure.error) {
       const std::size_t number = next++;
       lock.unlock();
       try {
@@ -54,14 +53,11 @@ void in_parallel(std::size_t count, int jobs, const std::function<void(std::size
         lock.lock();
       } catch (...) {
         if (!lock) lock.lock();
-        if (number < failed) {
-          failed = number;
-          failure = std::current_exception();
-        }
+        failure.note(number);
       }
     }
   });
-  if (failure) std::rethrow_exception(failure);
+  failure.rethrow_if_any();
 }
 
 }  // namespace ghtrack

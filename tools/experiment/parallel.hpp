@@ -16,6 +16,24 @@ namespace ghtrack {
 /// as many, and with this one alone inside of a call of work.
 void on_threads(int jobs, const std::function<void()>& work);
 
+/// What one thread would have come to first of all that several have thrown.
+struct FirstFailure {
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  std::size_t item = kNone;
+  std::exception_ptr error;
+
+  /// The item of this number has thrown what is being handled.
+  void note(std::size_t number) {
+    if (number >= item) return;
+    item = number;
+    error = std::current_exception();
+  }
+  void rethrow_if_any() const {
+    if (error) std::rethrow_exception(error);
+  }
+};
+
 /// Calls `task` with 0, 1, …, count − 1, in any order, with `jobs` threads. An exception ends it
 /// after the tasks under way and is passed on: of several, that of the least number.
 void in_parallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& task);
@@ -36,12 +54,10 @@ class OrderedWork {
   void run(int jobs) {
     most_ = 2 * static_cast<std::size_t>(jobs);
     on_threads(jobs, [this] { work_on_items(); });
-    if (failure_) std::rethrow_exception(failure_);
+    failure_.rethrow_if_any();
   }
 
  private:
-  static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
-
   void work_on_items() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -72,7 +88,7 @@ class OrderedWork {
   void deliver_done(std::unique_lock<std::mutex>& lock) {
     if (delivering_) return;
     delivering_ = true;
-    for (auto at = done_.find(delivered_); at != done_.end() && failed_ > delivered_;
+    for (auto at = done_.find(delivered_); at != done_.end() && failure_.item > delivered_;
          at = done_.find(delivered_)) {
       Result result = std::move(at->second);
       done_.erase(at);
@@ -91,14 +107,11 @@ class OrderedWork {
 
   void fail(std::unique_lock<std::mutex>& lock, std::size_t number) {
     if (!lock) lock.lock();
-    if (number < failed_) {
-      failed_ = number;
-      failure_ = std::current_exception();
-    }
+    failure_.note(number);
     changed_.notify_all();
   }
 
-  bool is_over() const { return ended_ || failed_ != kNever; }
+  bool is_over() const { return ended_ || failure_.item != FirstFailure::kNone; }
 
   Next next_;
   Work work_;
@@ -112,8 +125,7 @@ class OrderedWork {
   bool ended_ = false;       // there are no more items
   bool delivering_ = false;  // by one of the threads
   std::map<std::size_t, Result> done_;
-  std::size_t failed_ = kNever;  // the first item that failed
-  std::exception_ptr failure_;
+  FirstFailure failure_;
 };
 
 }  // namespace ghtrack

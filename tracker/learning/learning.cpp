@@ -101,22 +101,23 @@ std::optional<double> spread_of(const std::vector<Eigen::Vector2d>& places) {
   return std::numbers::pi * *at / kNearest;
 }
 
-/// How far from the parabola through the three before it a fix of any path is at most [m].
-double roughness(const std::vector<Path>& paths, int axis) {
-  double most = 0.0;
+/// How far from the parabola through the three before it a fix of any path is at most, per axis [m].
+Eigen::Vector2d roughness(const std::vector<Path>& paths) {
+  Eigen::Vector2d most = Eigen::Vector2d::Zero();
   for (const Path& path : paths) {
     const std::vector<Fix>& fixes = path.fixes;
     for (std::size_t i = 3; i < fixes.size(); ++i) {
-      double expected = 0.0;
+      Eigen::Vector2d expected = Eigen::Vector2d::Zero();
       for (std::size_t j = i - 3; j < i; ++j) {  // Lagrange's weights
         double weight = 1.0;
         for (std::size_t k = i - 3; k < i; ++k) {
           if (k == j) continue;
           weight *= (fixes[i].time - fixes[k].time) / (fixes[j].time - fixes[k].time);
         }
-        expected += weight * fixes[j].position[axis];
+        expected += weight * fixes[j].position;
       }
-      most = std::max(most, std::abs(fixes[i].position[axis] - expected));
+      const Eigen::Vector2d apart = (fixes[i].position - expected).cwiseAbs();
+      for (int axis = 0; axis < 2; ++axis) most[axis] = std::max(most[axis], apart[axis]);
     }
   }
   return most;
@@ -432,8 +433,9 @@ class Learner {
   /// below the step that they are multiples of, this is of the motion, such as 3 m a second.
   Eigen::Vector2d least_noise(const std::vector<Path>& paths) const {
     Eigen::Vector2d least = Eigen::Vector2d::Constant(1e-6 * extent_);
+    const Eigen::Vector2d rough = roughness(paths);
     for (int axis = 0; axis < 2; ++axis) {
-      if (!paths.empty() && roughness(paths, axis) < 0.1 * rounding_[axis]) continue;
+      if (!paths.empty() && rough[axis] < 0.1 * rounding_[axis]) continue;
       least[axis] = std::max(least[axis], rounding_[axis] / std::sqrt(12.0));
     }
     return least;
