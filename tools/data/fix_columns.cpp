@@ -2,16 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "tools/record/errors.hpp"
 
 namespace ghtrack {
 namespace {
-
-// What ships say of their place when they do not know it (ITU-R M.1371).
-constexpr double kNoLatitude = 91.0;
-constexpr double kNoLongitude = 181.0;
 
 Scale scale_of(const Table& table, std::size_t column) {
   const auto& unit = table.headings()[column].unit;
@@ -23,46 +17,20 @@ std::string unit_of(const Table& table, std::size_t column) {
   return unit ? unit->name : "m";
 }
 
-/// Whether a column of degrees has whole numbers that no degrees could be.
-bool has_parts_of_degrees(const Table& table, std::size_t column) {
-  constexpr double kLeast = 1e5;
-  const auto first = parse_number(table.first_value(column), table.dialect().point);
-  return first && std::abs(*first) > kLeast && std::trunc(*first) == *first;
-}
-
-/// Whether a column is named as FIT, the format of Garmin's devices, names a position.
-bool is_of_fit(const Table& table, std::size_t column) {
-  return table.headings()[column].base.starts_with("position_l");  // _lat, _long
-}
-
-/// The column whose cells hold latitude and longitude, in a table without columns of their own.
-std::optional<std::size_t> place_column(const Table& table) {
-  const ColumnMap& columns = table.columns();
-  const auto place = columns.find(Role::kPlace);
-  if (!place || columns.is_chosen(Role::kPlace)) return place;
-  const bool has_others = columns.has_plane() || columns.has_degrees();
-  return !has_others && parse_place(table.first_cell(*place)) ? place : std::nullopt;
-}
-
 }  // namespace
 
 FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<GeoPoint> origin)
-    : time_(table, options), origin_(origin) {
-  const ColumnMap& columns = table.columns();
-  const auto place = place_column(table);
-  geographic_ = place || (columns.has_degrees() && !columns.has_plane());
-  x_ = place ? *place : table.required(geographic_ ? Role::kLongitude : Role::kX);
-  y_ = place ? *place : table.required(geographic_ ? Role::kLatitude : Role::kY);
+    : time_(table, options), degrees_(GeographicColumns::find(table, origin)) {
+  if (!degrees_) {
+    x_ = table.required(Role::kX);
+    y_ = table.required(Role::kY);
+  }
   table.throw_missing_columns();
-  if (!geographic_) {
-    origin_.reset();
+  if (!degrees_) {
     x_scale_ = scale_of(table, x_);
     y_scale_ = scale_of(table, y_);
-  } else if (has_parts_of_degrees(table, x_) && has_parts_of_degrees(table, y_)) {
-    const bool is_fit = is_of_fit(table, x_) && is_of_fit(table, y_);
-    degrees_ = is_fit ? "semicircles" : "1e-7 degrees";  // the latter as autopilots log them
-    x_scale_ = y_scale_ = Scale::of_parts(is_fit ? 0x1p31 / 180.0 : 1e7);
   }
+  const ColumnMap& columns = table.columns();
   const auto both = columns.find(Role::kSigma);
   sigma_x_ = columns.has(Role::kSigmaX) ? columns.find(Role::kSigmaX) : both;
   sigma_y_ = columns.has(Role::kSigmaY) ? columns.find(Role::kSigmaY) : both;
@@ -78,45 +46,19 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
 std::optional<Fix> FixColumns::read(Table& table) {
   const auto time = time_.read(table);
   if (!time) return std::nullopt;
-  Fix fix{.time = *time, .position = std::nullopt};
-  const auto [x, y] = coordinates(table);
-  if (!x || !y) {
-    const bool x_missing = is_missing(table.cell(x_));
-    const bool y_missing = is_missing(table.cell(y_));
-    const char* const wanted = x_ == y_      ? "a latitude and a longitude"
-                               : geographic_ ? "a number of degrees"
-                                             : "a finite number";
-    if (!x && !x_missing) table.reject_cell(x_, wanted);
-    if (!y && !y_missing && x_ != y_) table.reject_cell(y_, wanted);
-    if ((!x && !x_missing) || (!y && !y_missing)) return std::nullopt;
-    return fix;
-  }
-  if (!geographic_) {
-    fix.position = Eigen::Vector2d(x_scale_(*x), y_scale_(*y));
-    return fix;
-  }
-  const GeoPoint point{.latitude = y_scale_(*y), .longitude = x_scale_(*x)};
-  if (point.latitude == kNoLatitude && point.longitude == kNoLongitude) return fix;
-  if (!is_on_earth(point)) {
-    table.reject(fmt::format("latitude {} and longitude {} are no point of the earth", *y, *x));
-    return std::nullopt;
-  }
-  if (!origin_) origin_ = point;
-  fix.position = to_metres(*origin_, point);
-  return fix;
+  const Fix fix{.time = *time, .position = degrees_ ? degrees_->read(table) : plane(table)};
+  return table.is_rejected() ? std::nullopt : std::optional(fix);
 }
 
-FixColumns::Coordinates FixColumns::coordinates(const Table& table) const {
-  if (x_ != y_) return {coordinate(table, x_), coordinate(table, y_)};
-  const auto place = parse_place(table.cell(x_));
-  return place ? Coordinates{place->longitude, place->latitude} : Coordinates{};
+std::optional<Eigen::Vector2d> FixColumns::plane(Table& table) const {
+  const auto x = table.number_or_missing(x_), y = table.number_or_missing(y_);
+  if (!x || !y) return std::nullopt;
+  return Eigen::Vector2d(x_scale_(*x), y_scale_(*y));
 }
 
-/// A number; of degrees also one with minutes and seconds.
-std::optional<double> FixColumns::coordinate(const Table& table, std::size_t column) const {
-  const auto number = table.number(column);
-  if (number || !geographic_ || is_missing(table.cell(column))) return number;
-  return parse_degrees(table.cell(column), column == y_);
+const std::optional<GeoPoint>& FixColumns::origin() const {
+  static const std::optional<GeoPoint> kNone;
+  return degrees_ ? degrees_->origin() : kNone;
 }
 
 std::optional<Eigen::Vector2d> FixColumns::sigma(const Table& table) const {
@@ -129,19 +71,14 @@ std::optional<Eigen::Vector2d> FixColumns::sigma(const Table& table) const {
 
 std::string FixColumns::describe(const Table& table) const {
   const auto name = [&](std::size_t column) { return name_of_column(table, column); };
-  std::string text = time_.describe(table);
-  if (geographic_) {
-    text += fmt::format(", x and y in m from {} in {}{}", degrees_, name(x_),
-                        x_ == y_ ? "" : " and " + name(y_));
-    if (origin_) {
-      text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin_->latitude,
-                          origin_->longitude);
-    }
+  std::string text = time_.describe(table) + ", x and y ";
+  if (degrees_) {
+    text += degrees_->describe(table);
   } else {
     const std::string unit = unit_of(table, x_);
     const bool alike = unit == unit_of(table, y_);
-    text += fmt::format(", x and y ({}{}) from {} and {}", unit,
-                        alike ? "" : ", " + unit_of(table, y_), name(x_), name(y_));
+    text += fmt::format("({}{}) from {} and {}", unit, alike ? "" : ", " + unit_of(table, y_),
+                        name(x_), name(y_));
   }
   if (has_sigma()) text += ", sigma from " + name(*sigma_x_);
   return text;

@@ -3,9 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
-#include <string_view>
 
-#include "tools/data/place.hpp"
+#include "tools/data/geographic_columns.hpp"
 #include "tools/data/table.hpp"
 #include "tools/data/time_column.hpp"
 
@@ -33,25 +32,19 @@ class FixColumns {
   bool has_sigma() const { return sigma_x_ && sigma_y_; }
 
   /// Of the local metres, once a row has been read; absent if the table is in metres.
-  const std::optional<GeoPoint>& origin() const { return origin_; }
+  const std::optional<GeoPoint>& origin() const;
 
   /// "t in ms from 'time', x and y in mm from 'East' and 'North'".
   std::string describe(const Table& table) const;
 
  private:
-  struct Coordinates {
-    std::optional<double> x, y;
-  };
-  Coordinates coordinates(const Table& table) const;
-  std::optional<double> coordinate(const Table& table, std::size_t column) const;
+  std::optional<Eigen::Vector2d> plane(Table& table) const;
 
   TimeColumn time_;
-  std::size_t x_ = 0, y_ = 0;  // one column where a cell holds latitude and longitude
+  std::optional<GeographicColumns> degrees_;
+  std::size_t x_ = 0, y_ = 0;  // without degrees
   std::optional<std::size_t> sigma_x_, sigma_y_;
   Scale x_scale_, y_scale_, sigma_x_scale_, sigma_y_scale_;
-  bool geographic_ = false;
-  std::string_view degrees_ = "degrees";  // what the numbers are, where they are geographic
-  std::optional<GeoPoint> origin_;
 };
 
 /// The origin of local metres that tracks carry in the columns origin_lat and origin_lon.

@@ -8,10 +8,11 @@
 #include <deque>
 #include <utility>
 
-#include "tools/record/ordered_rows.hpp"
+#include "tools/data/geographic_columns.hpp"
 #include "tools/data/time_column.hpp"
 #include "tools/data/time_order.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/record/ordered_rows.hpp"
 
 namespace ghtrack {
 namespace {
@@ -21,10 +22,10 @@ constexpr std::size_t kWitnesses = 5;      // rows that may belie the time of on
 constexpr std::int64_t kWarnings = 10;     // more are not said
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
 
-/// What is measured: a column for each axis.
+/// What is measured: a column for each axis, or places of the earth.
 struct Measured {
   std::vector<std::size_t> columns;
-  bool geographic = false;  // longitude and latitude
+  std::optional<GeographicColumns> degrees;
 };
 
 /// Columns whose names are a stem with the suffix of each axis; none if there are fewer than two.
@@ -55,19 +56,18 @@ std::optional<std::size_t> only_column_left(const Table& table) {
 Measured find_measured(const Table& table) {
   const ColumnMap& columns = table.columns();
   const auto x = columns.find(Role::kX), y = columns.find(Role::kY), z = columns.find(Role::kZ);
-  const auto lat = columns.find(Role::kLatitude), lon = columns.find(Role::kLongitude);
-  if (columns.is_chosen(Role::kZ)) return {{*z}};
+  if (columns.is_chosen(Role::kZ)) return {{*z}, {}};
   const bool plane_is_chosen = columns.is_chosen(Role::kX) || columns.is_chosen(Role::kY);
-  if (plane_is_chosen && x && y) return {{*x, *y}};
-  if (plane_is_chosen) return {{x ? *x : *y}};
+  if (plane_is_chosen && x && y) return {{*x, *y}, {}};
+  if (plane_is_chosen) return {{x ? *x : *y}, {}};
   for (const char* stem : {"z", "z_", ""}) {
-    if (auto axes = by_axis(table, stem); !axes.empty()) return {std::move(axes)};
+    if (auto axes = by_axis(table, stem); !axes.empty()) return {std::move(axes), {}};
   }
-  if (const auto own = table.column("z")) return {{*own}};
-  if (lat && lon) return {.columns = {*lon, *lat}, .geographic = true};
-  if (x && y) return {{*x, *y}};
+  if (const auto own = table.column("z")) return {{*own}, {}};
+  if (auto degrees = GeographicColumns::find(table)) return {{}, std::move(degrees)};
+  if (x && y) return {{*x, *y}, {}};
   for (const auto& one : {z, x, y, only_column_left(table)}) {
-    if (one) return {{*one}};
+    if (one) return {{*one}, {}};
   }
   return {};
 }
@@ -98,23 +98,25 @@ struct SeriesReader::State {
         h(table.column("h")),
         k(is_filtered(table) ? std::nullopt : table.column("k")),
         dt(table.column("dt")) {
-    const Measured measured = find_measured(table);
-    if (measured.columns.empty()) table.required(Role::kZ);
+    Measured measured = find_measured(table);
+    degrees = std::move(measured.degrees);
+    if (measured.columns.empty() && !degrees) table.required(Role::kZ);
     const bool are_asked = table.columns().is_chosen(Role::kTime) || options.frame_rate;
     const bool are_there = TimeColumn::is_in(table, options) && !dt;
     if (are_asked || (are_there && wanted == SeriesTimes::kIfThere)) times.emplace(table, options);
     table.throw_missing_columns();
-    geographic = measured.geographic;
-    for (std::size_t axis = 0; axis < measured.columns.size(); ++axis) {
-      axes.emplace_back(table, measured.columns[axis]);
-      const std::string suffix = measured.columns.size() == 1 ? "" : std::string("_") + kAxes[axis];
+    for (const std::size_t column : measured.columns) axes.emplace_back(table, column);
+    for (std::size_t axis = 0; axis < dimensions(); ++axis) {
+      const std::string suffix = dimensions() == 1 ? "" : std::string("_") + kAxes[axis];
       if (const auto column = table.column("truth" + suffix)) {
-        truth.emplace_back(table, *column, axes.back().scale);
+        truth.emplace_back(table, *column, degrees ? Scale() : axes[axis].scale);
       }
     }
-    if (truth.size() < axes.size()) truth.clear();
+    if (truth.size() < dimensions()) truth.clear();
     is_file = table.can_rewind();
   }
+
+  std::size_t dimensions() const { return degrees ? 2 : axes.size(); }
 
   /// Goes through a file once: is it sound, and are its rows in order?
   void survey() {
@@ -183,7 +185,6 @@ struct SeriesReader::State {
   /// The next sound row of the table; false after the last.
   bool parse(MeasuredRow& row) {
     while (table.next()) {
-      const std::int64_t rejected = table.rows_left_out();
       row = {.number = count + 1,
              .line = table.line(),
              .time = times ? times->read(table) : std::nullopt,
@@ -191,10 +192,9 @@ struct SeriesReader::State {
              .g = optional_number(g),
              .h = optional_number(h),
              .k = optional_number(k),
-             .z = values(axes),
+             .z = degrees ? place() : values(axes),
              .truth = values(truth)};
-      if (geographic && row.z) to_local_metres(*row.z);
-      if (table.rows_left_out() == rejected) {
+      if (!table.is_rejected()) {
         ++count;
         return true;
       }
@@ -205,10 +205,7 @@ struct SeriesReader::State {
   }
 
   std::optional<double> optional_number(const std::optional<std::size_t>& column) {
-    if (!column) return std::nullopt;
-    const auto number = table.number(*column);
-    if (!number && !is_missing(table.cell(*column))) table.reject_cell(*column, "a finite number");
-    return number;
+    return column ? table.number_or_missing(*column) : std::nullopt;
   }
 
   /// Absent if one is missing.
@@ -217,22 +214,16 @@ struct SeriesReader::State {
     AxisVector all(static_cast<Eigen::Index>(quantities.size()));
     bool complete = true;
     for (std::size_t i = 0; i < quantities.size(); ++i) {
-      const auto number = optional_number(quantities[i].column);
+      const auto number = table.number_or_missing(quantities[i].column);
       complete = complete && number.has_value();
       all[static_cast<Eigen::Index>(i)] = quantities[i].scale(number.value_or(0.0));
     }
     return complete ? std::optional(all) : std::nullopt;
   }
 
-  void to_local_metres(AxisVector& longitude_latitude) {
-    const GeoPoint point{.latitude = longitude_latitude[1], .longitude = longitude_latitude[0]};
-    if (!is_on_earth(point)) {
-      table.reject(fmt::format("latitude {} and longitude {} are no point of the earth",
-                               point.latitude, point.longitude));
-      return;
-    }
-    if (!origin) origin = point;
-    longitude_latitude = to_metres(*origin, point);
+  std::optional<AxisVector> place() {
+    const auto metres = degrees->read(table);
+    return metres ? std::optional<AxisVector>(*metres) : std::nullopt;
   }
 
   // A pipe, row by row.
@@ -282,7 +273,6 @@ struct SeriesReader::State {
 
   std::string unit_of(const Quantity& quantity) const {
     const auto& unit = table.headings()[quantity.column].unit;
-    if (geographic) return " (m, from degrees)";
     if (!unit || unit->is_time) return "";
     return fmt::format(" ({}{})", unit->name, unit->scale == 1.0 ? "" : ", as m");
   }
@@ -297,10 +287,7 @@ struct SeriesReader::State {
       text += axes.size() == 1 ? "z" : std::string("z") + kAxes[i];
       text += unit_of(axes[i]) + " from " + name_of_column(table, axes[i].column);
     }
-    if (origin) {
-      text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin->latitude,
-                          origin->longitude);
-    }
+    if (degrees) text += "zx and zy " + degrees->describe(table);
     if (missed > 0) text += fmt::format("; {} rows without a measurement", missed);
     if (are_moved) text += "; sorted by time";
     return text;
@@ -309,7 +296,7 @@ struct SeriesReader::State {
   bool is_plain() const {
     const Dialect& dialect = table.dialect();
     return dialect.separator == ',' && dialect.point == '.' && !are_moved &&
-           (!times || times->is_plain(table)) &&
+           (!times || times->is_plain(table)) && !degrees &&
            std::all_of(axes.begin(), axes.end(), [&](const Quantity& axis) {
              const std::string& name = table.headings()[axis.column].text;
              return name == "z" || name == "zx" || name == "zy" || name == "zz";
@@ -319,9 +306,8 @@ struct SeriesReader::State {
   Table table;
   std::optional<TimeColumn> times;
   std::vector<Quantity> axes, truth;
-  bool geographic = false;
+  std::optional<GeographicColumns> degrees;  // instead of axes
   std::optional<std::size_t> g, h, k, dt;
-  std::optional<GeoPoint> origin;
   bool is_file = false;
   std::int64_t count = 0;  // sound rows that have been read
 
@@ -352,9 +338,8 @@ SeriesReader::SeriesReader(const std::string& path, const ReadOptions& options, 
 SeriesReader::~SeriesReader() = default;
 SeriesReader::SeriesReader(SeriesReader&&) noexcept = default;
 
-std::size_t SeriesReader::axes() const { return state_->axes.size(); }
+std::size_t SeriesReader::axes() const { return state_->dimensions(); }
 bool SeriesReader::has_times() const { return state_->times.has_value(); }
-const std::optional<GeoPoint>& SeriesReader::origin() const { return state_->origin; }
 std::string SeriesReader::understood() const { return state_->describe(); }
 bool SeriesReader::is_plain() const { return state_->is_plain(); }
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "tools/data/place.hpp"
 #include "tools/data/table.hpp"
 
 namespace ghtrack {
@@ -54,9 +53,6 @@ class SeriesReader {
   /// The median time between rows [s]: of a file, or of the first rows of a pipe; absent without
   /// times.
   std::optional<double> typical_step();
-
-  /// Of the local metres, if the series is in degrees of latitude and longitude.
-  const std::optional<GeoPoint>& origin() const;
 
   /// One line: what was read and how. Of a pipe only how.
   std::string understood() const;

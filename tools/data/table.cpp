@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tools/data/clock.hpp"
+#include "tools/data/place.hpp"
 #include "tools/data/formats.hpp"
 #include "tools/record/errors.hpp"
 
@@ -32,7 +33,8 @@ std::string_view without_comment_sign(std::string_view line) {
 
 bool is_value(std::string_view cell, char point) {
   return parse_number(cell, point) || parse_date_time(cell) ||
-         parse_date_time(cell, DateOrder::kMonthFirst) || parse_time_of_day(cell);
+         parse_date_time(cell, DateOrder::kMonthFirst) || parse_time_of_day(cell) ||
+         parse_place(cell);
 }
 
 std::int64_t characters(std::string_view text) {
@@ -343,20 +345,26 @@ bool Table::next() {
   return false;
 }
 
+std::optional<double> Table::number_or_missing(std::size_t column) {
+  const auto value = number(column);
+  if (!value && !is_missing(cells_[column])) reject_cell(column, "a finite number");
+  return value;
+}
+
 void Table::reject_cell(std::size_t column, const std::string& expectation) {
   const std::string_view cell = cells_[column];
   std::int64_t at = 0;
   if (cell.data() >= line_.data() && cell.data() <= line_.data() + line_.size()) {
     at = 1 + characters({line_.data(), static_cast<std::size_t>(cell.data() - line_.data())});
   }
-  reject_at(line_number_, at,
-            fmt::format("{} in column {} is not {}", in_quotes(cell),
-                        in_quotes(headings_[column].text), expectation));
+  reject_at(at, fmt::format("{} in column {} is not {}", in_quotes(cell),
+                            in_quotes(headings_[column].text), expectation));
 }
 
-void Table::reject_at(std::int64_t line, std::int64_t column, const std::string& message) {
-  ++rejected_;
-  findings_.add(line, message, column);
+void Table::reject_at(std::int64_t character, const std::string& message) {
+  if (!is_rejected()) ++rejected_;
+  rejected_line_ = line_number_;
+  findings_.add(line_number_, message, character);
 }
 
 void Table::throw_findings() const {
@@ -372,6 +380,7 @@ void Table::rewind() {
   at_ = first_row_;
   findings_ = Findings(input_.name());
   rejected_ = 0;
+  rejected_line_ = -1;
 }
 
 }  // namespace ghtrack

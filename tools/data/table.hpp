@@ -66,10 +66,15 @@ class Table {
     return parse_number(cells_[column], dialect_.point);
   }
 
+  /// The same, or absent where the cell says that there is none; anything else is noted.
+  std::optional<double> number_or_missing(std::size_t column);
+
   /// Notes that the row is not what it should be.
-  void reject(const std::string& message) { reject_at(line_number_, 0, message); }
+  void reject(const std::string& message) { reject_at(0, message); }
   void reject_cell(std::size_t column, const std::string& expectation);
-  void reject_at(std::int64_t line, std::int64_t column, const std::string& message);
+
+  /// Whether something is wrong with the present row.
+  bool is_rejected() const { return rejected_line_ == line_number_; }
 
   /// How many rows have been left out, and what was wrong with the first of them.
   std::int64_t rows_left_out() const { return rejected_; }
@@ -102,11 +107,13 @@ class Table {
   bool repeats_header(const std::string& line);
   std::optional<std::string_view> next_line();
   void split_row(std::string_view line);
+  void reject_at(std::int64_t character, const std::string& message);
 
   ReadOptions options_;
   TextInput input_;
   Findings findings_;
-  std::int64_t rejected_ = 0;
+  std::int64_t rejected_ = 0;        // rows
+  std::int64_t rejected_line_ = -1;  // the last of them
   Dialect dialect_;
   std::vector<Heading> headings_;
   ColumnMap columns_;

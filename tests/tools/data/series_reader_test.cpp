@@ -216,6 +216,36 @@ TEST(SeriesReader, RefusesOrLeavesOutWhatIsNoNumber) {
   EXPECT_EQ(reader.remarks().size(), 4U);
 }
 
+// Derived: a place is read however it is written: 0.001° of a meridian at 50° are 111.23 m.
+TEST(SeriesReader, ReadsPlacesAsTracksAreRead) {
+  for (const char* content :
+       {"time,lat,lon\n0,50,8\n1,,\n2,50.001,8\n",
+        "time,lat,lon\n0,50°0'0\"N,8°E\n1,,\n2,50°0'3.6\"N,8°E\n",
+        "time,lat,lon\n0,500000000,80000000\n1,,\n2,500010000,80000000\n",
+        "time,position_lat,position_long\n0,596523236,95443718\n1,,\n2,596535166,95443718\n",
+        "time;Position\n0;50,8\n1;\n2;50.001,8\n", "time,Position\n1,\n0,\"50,8\"\n2,\"50.001,8\"\n",
+        "time,wkt\n0,POINT (8 50)\n1,NA\n2,POINT (8 50.001)\n",
+        "time,lat,lon\n0,50,8\n1,91,181\n2,50.001,8\n"}) {
+    const ScratchFolder folder;
+    SeriesReader reader(folder.write("in.csv", content).string());
+    ASSERT_EQ(reader.axes(), 2U) << content;
+    const auto first = reader.next(), second = reader.next(), third = reader.next();
+    ASSERT_TRUE(first && first->z && second && !second->z && third && third->z) << content;
+    EXPECT_NEAR((*third->z - *first->z)[0], 0.0, 1e-3) << content;
+    EXPECT_NEAR((*third->z - *first->z)[1], 111.23, 0.02) << content;
+  }
+}
+
+// Property: a row with several faults is one row left out, with all that is said of it.
+TEST(SeriesReader, CountsRowsLeftOut) {
+  const ScratchFolder folder;
+  SeriesReader reader(folder.write("in.csv", "t,x,y\n0,1,2\n1,oops,no\n2,3,4\n").string(),
+                      {.skip_bad_rows = true});
+  EXPECT_EQ(rows_of(reader), "0:1,2 2:3,4 ");
+  EXPECT_EQ(reader.left_out(), 1);
+  EXPECT_EQ(reader.remarks().size(), 2U);
+}
+
 // Derived: degrees become metres; lengths too.
 TEST(SeriesReader, SaysWhatItUnderstood) {
   const ScratchFolder folder;
@@ -223,9 +253,9 @@ TEST(SeriesReader, SaysWhatItUnderstood) {
                                            "2024-06-11T07:30:01Z,,\n2024-06-11T07:30:02Z,50.001,8\n")
                         .string());
   EXPECT_THAT(walk.understood(),
-              HasSubstr("3 rows (commas), t (ISO 8601, as s since 1970) from 'time', zx (m, from "
-                        "degrees) from 'lon', zy (m, from degrees) from 'lat' around latitude 50, "
-                        "longitude 8; 1 rows without a measurement"));
+              HasSubstr("3 rows (commas), t (ISO 8601, as s since 1970) from 'time', zx and zy in "
+                        "m from degrees in 'lon' and 'lat' around latitude 50, longitude 8; 1 rows "
+                        "without a measurement"));
   EXPECT_FALSE(walk.is_plain());
   const auto last = [&] {
     std::optional<MeasuredRow> row, now;
