@@ -463,6 +463,10 @@ class SequenceTracking {
       return MotReader(sequence.detections, MotKind::kDetections, last_frame, stop_if_interrupted);
     });
     tell_if_sorted(sequence.detections.string(), detections.in_order(), manners_);
+    if (detections.counts_from_zero() && !manners_.quiet) {
+      tell("ghtrack: {}: counts its frames from 0; here they count from 1",
+           sequence.detections.string());
+    }
     const bool is_kitti = looks_like_kitti_file(sequence.detections);
     std::map<std::int64_t, std::string> types;
     if (is_kitti) {  // which follow from whole tracks: all is tracked once more

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 
 #include "tools/record/text_file.hpp"
 
@@ -42,6 +43,7 @@ bool are_blanks_with_decimal_commas(std::span<const std::string> lines) {
   std::size_t count = 0;
   bool any = false;
   for (const std::string& line : lines) {
+    if (trimmed(line).empty()) continue;
     split_cells(line, ' ', cells, owned);
     if (cells.size() < 2 || (count != 0 && cells.size() != count)) return false;
     count = cells.size();
@@ -76,6 +78,46 @@ std::string_view take_quoted(std::string_view& rest, std::vector<std::string>& o
   return doubled ? std::string_view(owned.emplace_back(std::move(value))) : inside;
 }
 
+constexpr std::array<char, 4> kMarks = {';', '\t', '|', ','};  // that separate, but for blanks
+constexpr std::size_t kMostTitles = 4;                          // or it is one column
+
+/// The mark that every line has, each as often; none if there is no such, or fewer than two lines.
+std::optional<char> agreed_mark(std::span<const std::string> lines) {
+  if (lines.size() < 2) return std::nullopt;
+  const auto agree = [&](char mark) {
+    const auto count = [&](const std::string& line) {
+      return std::count(line.begin(), line.end(), mark);
+    };
+    const auto first = count(lines.front());
+    return first > 0 && std::all_of(lines.begin(), lines.end(), [&](const std::string& line) {
+             return trimmed(line).empty() || count(line) == first;
+           });
+  };
+  const auto found = std::find_if(kMarks.begin(), kMarks.end(), agree);
+  return found == kMarks.end() ? std::nullopt : std::optional(*found);
+}
+
+/// What separates the cells; nothing if there is one column.
+std::optional<char> find_separator(std::span<const std::string> lines) {
+  const std::string_view first = trimmed(lines.front());
+  for (const char mark : kMarks) {
+    if (separates(first, mark)) return mark;
+  }
+  const bool has_blanks = separates(first, ' ');
+  if (has_blanks && are_blanks_with_decimal_commas(lines.subspan(1))) return ' ';
+  for (std::size_t i = 1; i < std::min(lines.size(), kMostTitles); ++i) {
+    if (has_blanks) {  // a title such as "mass A" if all lines below it agree
+      if (const auto mark = agreed_mark(lines.subspan(i))) return mark;
+      continue;
+    }
+    const std::string_view line = trimmed(lines[i]);
+    for (const char mark : kMarks) {
+      if (separates(line, mark) && !(mark == ',' && has_decimal_comma(line))) return mark;
+    }
+  }
+  return has_blanks ? std::optional(' ') : std::nullopt;
+}
+
 }  // namespace
 
 std::string Dialect::describe() const {
@@ -91,25 +133,14 @@ std::string Dialect::describe() const {
 Dialect recognise_dialect(std::span<const std::string> lines) {
   Dialect dialect;
   if (lines.empty()) return dialect;
-  const std::string_view first = trimmed(lines.front());
-  constexpr std::array<char, 5> kSeparators = {';', '\t', '|', ',', ' '};
-  auto found = std::find_if(kSeparators.begin(), kSeparators.end(),
-                            [&](char c) { return separates(first, c); });
-  constexpr std::size_t kMostTitles = 4;  // or it is one column
-  for (std::size_t i = 1; found == kSeparators.end() && i < std::min(lines.size(), kMostTitles); ++i) {
-    const std::string_view line = trimmed(lines[i]);
-    found = std::find_if(kSeparators.begin(), kSeparators.end(), [&](char c) {
-      return c != ' ' && separates(line, c) && !(c == ',' && has_decimal_comma(line));
+  const std::optional<char> separator = find_separator(lines);
+  if (!separator) {  // one column
+    const bool has_comma = std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+      return has_decimal_comma(trimmed(line));
     });
+    return has_comma ? Dialect{.separator = ';', .point = ','} : dialect;
   }
-  if (found == kSeparators.end()) {  // one column
-    dialect.separator = ';';
-    for (const std::string& line : lines.subspan(1)) {
-      if (has_decimal_comma(trimmed(line))) return {.separator = ';', .point = ','};
-    }
-    return has_decimal_comma(first) ? Dialect{.separator = ';', .point = ','} : Dialect{};
-  }
-  dialect.separator = *found;
+  dialect.separator = *separator;
   if (dialect.separator == ',' && are_blanks_with_decimal_commas(lines)) {
     return {.separator = ' ', .point = ','};
   }

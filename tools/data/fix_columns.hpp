@@ -37,6 +37,8 @@ class FixColumns {
   /// "t in ms from 'time', x and y in mm from 'East' and 'North'".
   std::string describe(const Table& table) const;
 
+  const TimeColumn& time() const { return time_; }
+
  private:
   std::optional<Eigen::Vector2d> plane(Table& table) const;
 

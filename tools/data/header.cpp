@@ -17,7 +17,7 @@ struct RoleName {
   Role role;
   std::string_view name;
 };
-constexpr std::array<RoleName, 21> kRoles = {{{Role::kTime, "t"},
+constexpr std::array<RoleName, 16> kRoles = {{{Role::kTime, "t"},
                                               {Role::kDate, "date"},
                                               {Role::kFrame, "frame"},
                                               {Role::kX, "x"},
@@ -32,19 +32,14 @@ constexpr std::array<RoleName, 21> kRoles = {{{Role::kTime, "t"},
                                               {Role::kSigma, "sigma"},
                                               {Role::kSigmaX, "sigma_x"},
                                               {Role::kSigmaY, "sigma_y"},
-                                              {Role::kStatus, "status"},
-                                              {Role::kLeft, "left"},
-                                              {Role::kTop, "top"},
-                                              {Role::kWidth, "width"},
-                                              {Role::kHeight, "height"},
-                                              {Role::kConfidence, "conf"}}};
+                                              {Role::kStatus, "status"}}};
 
 /// Other names of the roles, the likelier ones first.
 struct Alias {
   Role role;
   std::string_view names;  // separated by blanks
 };
-constexpr std::array<Alias, 21> kAliases = {{
+constexpr std::array<Alias, 16> kAliases = {{
     {Role::kTime,
      "t time timestamp time_stamp datetime date_time date/time basedatetime base_date_time utc "
      "time_utc utc_time gps_time gpstime unix_time unixtime epoch posixtime time_position elapsed "
@@ -56,10 +51,10 @@ constexpr std::array<Alias, 21> kAliases = {{
      "img_id"},
     {Role::kX,
      "x x_pos xpos pos_x posx position_x x_position px point_x x_coord coord_x east easting "
-     "utm_x utm_east x_east cx center_x centre_x x_center x_centre xc mass_a_x u"},
+     "utm_x utm_east x_east cx center_x centre_x x_center x_centre xc mass_a_x u tx local_x"},
     {Role::kY,
      "y y_pos ypos pos_y posy position_y y_position py point_y y_coord coord_y north northing "
-     "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc mass_a_y v"},
+     "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc mass_a_y v ty local_y"},
     {Role::kZ, "z value measurement measured reading position pos distance range height altitude "
                "data signal x"},
     {Role::kLatitude,
@@ -83,11 +78,6 @@ constexpr std::array<Alias, 21> kAliases = {{
     {Role::kSigmaX, "sigma_x std_x sigma_east x_std x_sigma sx"},
     {Role::kSigmaY, "sigma_y std_y sigma_north y_std y_sigma sy"},
     {Role::kStatus, "status"},
-    {Role::kLeft, "left bb_left bbox_left x1 xmin x_min"},
-    {Role::kTop, "top bb_top bbox_top y1 ymin y_min"},
-    {Role::kWidth, "width bb_width bbox_width w"},
-    {Role::kHeight, "height bb_height bbox_height h"},
-    {Role::kConfidence, "conf confidence score probability"},
 }};
 
 struct UnitName {
@@ -149,10 +139,16 @@ std::optional<Unit> unit_named(std::string_view text) {
   return std::nullopt;
 }
 
+bool is_alias(std::string_view base) {
+  return std::any_of(kAliases.begin(), kAliases.end(), [&](const Alias& alias) {
+    return any_word(alias.names, [&](std::string_view name) { return name == base; });
+  });
+}
+
 /// "Pos X " → "pos_x"
-std::string base_of(std::string_view text) {
+std::string words_joined(std::string_view text) {
   std::string result;
-  for (const char c : lower(unquoted(text))) {
+  for (const char c : lower(text)) {
     const bool joins = c == ' ' || c == '-' || c == '.' || c == '_';
     if (!joins) {
       result += c;
@@ -164,10 +160,22 @@ std::string base_of(std::string_view text) {
   return result;
 }
 
-bool is_alias(std::string_view base) {
-  return std::any_of(kAliases.begin(), kAliases.end(), [&](const Alias& alias) {
-    return any_word(alias.names, [&](std::string_view name) { return name == base; });
-  });
+/// "xCenter" → "x Center", "TimeUS" → "Time US"
+std::string words_apart(std::string_view text) {
+  const auto is_upper = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
+  const auto is_lower = [](char c) { return std::islower(static_cast<unsigned char>(c)) != 0; };
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (i > 0 && is_upper(text[i]) && is_lower(text[i - 1])) result += ' ';
+    result += text[i];
+  }
+  return result;
+}
+
+/// The words of a heading in lower case, joined by '_'.
+std::string base_of(std::string_view text) {
+  std::string as_written = words_joined(unquoted(text));
+  return is_alias(as_written) ? as_written : words_joined(words_apart(unquoted(text)));
 }
 
 /// Splits "y(mm)", "Time [ms]", "x / m", "t in s" into name and unit.
@@ -261,7 +269,8 @@ namespace {
 std::string_view telling_word(std::string_view base) {
   constexpr std::string_view kOthers =
       "v vel velocity speed twist linear geschwindigkeit a acc accel acceleration beschleunigung "
-      "gyro omega angular rotation orientation quaternion covariance force kraft mag size sigma std error err residual offset start end delta d min max";
+      "gyro gyr omega w angular rotation rot orientation quaternion quat q covariance force kraft mag "
+      "gravity grav bias size sigma std error err residual offset start end delta d min max";
   const std::size_t last = base.find_last_of("_:");
   if (last == std::string_view::npos) return {};
   std::string_view before = base.substr(0, last);
@@ -274,13 +283,18 @@ std::string_view telling_word(std::string_view base) {
   return base.substr(last + 1);
 }
 
+/// Whether a heading ends with a unit that is neither a time nor a length, as "p x (m/s²)".
+bool has_other_unit(const Heading& heading) {
+  return !heading.unit && (heading.text.ends_with(')') || heading.text.ends_with(']'));
+}
+
 /// The only column whose last word is one of these.
 std::optional<std::size_t> column_telling(std::string_view words,
                                           const std::vector<Heading>& headings) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const std::string_view told = telling_word(headings[i].base);
-    if (told.empty() || is_alias(headings[i].base)) continue;
+    if (told.empty() || is_alias(headings[i].base) || has_other_unit(headings[i])) continue;
     if (!any_word(words, [&](std::string_view word) { return word == told; })) continue;
     if (found) return std::nullopt;
     found = i;

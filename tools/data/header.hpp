@@ -28,8 +28,6 @@ enum class Role {
   kSigmaX,
   kSigmaY,
   kStatus,
-  kLeft, kTop, kWidth, kHeight,  // of a box in an image
-  kConfidence,
 };
 
 /// The name of a role as `--columns` has it.

@@ -15,7 +15,7 @@ Eigen::Vector2d to_metres(const GeoPoint& origin, const GeoPoint& point) {
   Eigen::Vector2d position;
   projection.Forward(origin.latitude, origin.longitude, point.latitude, point.longitude,
                      position.x(), position.y());
-  return position;
+  return position + Eigen::Vector2d::Zero();  // without a negative zero
 }
 
 GeoPoint to_degrees(const GeoPoint& origin, const Eigen::Vector2d& position) {

@@ -119,6 +119,7 @@ struct ScanReader::State {
                           one ? " repeats" : "s repeat", one ? "is" : "are");
     }
     if (!summary.in_order) text += "; sorted by time";
+    text += fixes.time().doubt(table, summary.period);
     return text;
   }
 

@@ -290,6 +290,7 @@ struct SeriesReader::State {
     if (degrees) text += "zx and zy " + degrees->describe(table);
     if (missed > 0) text += fmt::format("; {} rows without a measurement", missed);
     if (are_moved) text += "; sorted by time";
+    if (times) text += times->doubt(table, step.value_or(0.0));
     return text;
   }
 

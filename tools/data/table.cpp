@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "tools/data/clock.hpp"
-#include "tools/data/place.hpp"
 #include "tools/data/formats.hpp"
+#include "tools/data/place.hpp"
 #include "tools/record/errors.hpp"
 
 namespace ghtrack {
@@ -294,9 +294,10 @@ std::size_t Table::required(Role role) {
     return 0;
   }
   findings_.add(line, fmt::format("column '{}' is missing; the header row has {}; --columns "
-                                  "{}=NAME says which one it is",
+                                  "{}=NAME says which one it is{}",
                                   to_string(role), known.empty() ? "nothing" : known,
-                                  to_string(role)));
+                                  to_string(role),
+                                  role == Role::kTime ? ", 't=NAME[ms]' in which unit" : ""));
   return 0;
 }
 

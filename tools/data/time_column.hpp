@@ -24,6 +24,10 @@ class TimeColumn {
   /// "t (ms) from 'time'".
   std::string describe(const Table& table) const;
 
+  /// A remark where numbers without a unit are rather too far apart for seconds; else empty.
+  /// @param period  between rows [s]
+  std::string doubt(const Table& table, double period) const;
+
   /// Whether it is seconds in a column `t`, as ghtrack writes it.
   bool is_plain(const Table& table) const;
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/record/box_fields.hpp"
 #include "tools/record/frame_reader.hpp"
 #include "tools/record/kitti_file.hpp"
 #include "tools/record/text_file.hpp"
@@ -26,10 +27,11 @@ using Values = std::array<double, kMostFields>;
 struct MotRules {
   MotKind kind;
   std::int32_t last_frame;
+  std::int32_t first_frame = 1;  // 0 under a header with names
 
   bool allows_frame(double value) const {
     const std::optional<std::int64_t> frame = as_whole(value);
-    return frame && *frame >= 1 && *frame <= last_frame;
+    return frame && *frame >= first_frame && *frame <= last_frame;
   }
 };
 
@@ -51,6 +53,25 @@ std::optional<MotRow> row_of(const Values& values, std::size_t count, const MotR
   return row;
 }
 
+/// The row of a line, or what is wrong with it among the findings.
+/// @param texts  of the values as the line has them
+std::optional<MotRow> checked_row(const Values& values, std::size_t count,
+                                  const std::array<std::string_view, kMostFields>& texts,
+                                  const MotRules& rules, std::int64_t line, Findings& findings) {
+  const std::optional<MotRow> row = row_of(values, count, rules);
+  if (row) return row;
+  if (!rules.allows_frame(values[0])) {
+    findings.add(line, fmt::format("frame {} is not a whole number from {} to {}",
+                                   in_quotes(texts[0]), rules.first_frame, rules.last_frame));
+  } else if (!as_whole(values[1])) {
+    findings.add(line, fmt::format("id {} is not a whole number", in_quotes(texts[1])));
+  } else {
+    findings.add(line, fmt::format("width {} and height {} must be above 0", in_quotes(texts[4]),
+                                   in_quotes(texts[5])));
+  }
+  return std::nullopt;
+}
+
 /// Turns the fields of a line into a row, or reports what is wrong with it.
 std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, const MotRules& rules,
                                 std::int64_t line, Findings& findings) {
@@ -63,6 +84,7 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, con
   constexpr std::array<std::string_view, kMostFields> kNames = {
       "frame", "id", "left", "top", "width", "height", "conf", "x", "y", "z"};
   Values values{};
+  std::array<std::string_view, kMostFields> texts;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const std::optional<double> value = parse_number(fields[i]);
     if (!value) {
@@ -71,22 +93,44 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, con
       return std::nullopt;
     }
     values[i] = *value;
+    texts[i] = fields[i];
   }
-  const std::optional<MotRow> row = row_of(values, fields.size(), rules);
-  if (row) return row;
-  if (!rules.allows_frame(values[0])) {
-    findings.add(line, fmt::format("frame {} is not a whole number from 1 to {}",
-                                   in_quotes(fields[0]), rules.last_frame));
-  } else if (!as_whole(values[1])) {
-    findings.add(line, fmt::format("id {} is not a whole number", in_quotes(fields[1])));
-  } else {
-    findings.add(line, fmt::format("width {} and height {} must be above 0", in_quotes(fields[4]),
-                                   in_quotes(fields[5])));
-  }
-  return std::nullopt;
+  return checked_row(values, fields.size(), texts, rules, line, findings);
 }
 
-/// "frame,id,bb_left,bb_top,…", as some tools put above the rows.
+/// The same of a line below a header that names its fields.
+std::optional<MotRow> parse_named_row(const std::vector<std::string_view>& fields,
+                                      const BoxFields& named, const MotRules& rules,
+                                      std::int64_t line, Findings& findings) {
+  if (fields.size() < named.needed || fields.size() > named.named) {
+    findings.add(line, fmt::format("this row has {} fields; the header row has {}", fields.size(),
+                                   named.named));
+    return std::nullopt;
+  }
+  bool is_sound = true;
+  const auto number = [&](std::size_t field) {
+    const auto value = parse_number(fields[field]);
+    if (!value && is_sound) {
+      findings.add(line, fmt::format("{} in field {} is not a finite number",
+                                     in_quotes(fields[field]), field + 1));
+    }
+    is_sound = is_sound && value.has_value();
+    return value.value_or(0.0);
+  };
+  const double frame = number(named.frame);
+  const double id = named.id ? number(*named.id) : -1.0;
+  const BoxFields::Box box =
+      named.box(number(named.x), number(named.y), number(named.across), number(named.down));
+  const double confidence = named.confidence ? number(*named.confidence) : 1.0;
+  if (!is_sound) return std::nullopt;
+  const Values values = {frame, id, box.left, box.top, box.width, box.height, confidence};
+  const std::string width = fmt::format("{:g}", box.width), height = fmt::format("{:g}", box.height);
+  return checked_row(values, kFewestFields + 1,
+                     {fields[named.frame], named.id ? fields[*named.id] : "", "", "", width, height},
+                     rules, line, findings);
+}
+
+/// A header in the order of MOTChallenge, whatever its words: "frame,id,bb_left,bb_top,…".
 bool is_header(const std::vector<std::string_view>& fields) {
   const auto says = [&](std::size_t i, std::string_view word) {
     return fields[i].find(word) != std::string_view::npos;
@@ -102,7 +146,7 @@ class MotParser {
   std::optional<MotRow> operator()(std::string_view line, std::int64_t number,
                                    Findings& findings) {
     Values values{};
-    const std::size_t count = plain_numbers(line, values);
+    const std::size_t count = named_ ? 0 : plain_numbers(line, values);
     if (count >= kFewestFields) {
       if (first_ == 0) first_ = number;
       if (const auto row = row_of(values, count, rules_)) return row;
@@ -110,13 +154,19 @@ class MotParser {
     if (line.find_first_not_of(" \t") == std::string_view::npos) return std::nullopt;
     split_fields(line, fields_, owned_);
     if (first_ == 0) first_ = number;
-    if (number == first_ && is_header(fields_)) return std::nullopt;
-    return parse_row(fields_, rules_, number, findings);
+    if (number == first_) {
+      named_ = BoxFields::find(fields_);
+      if (named_) rules_.first_frame = 0;
+      if (named_ || is_header(fields_)) return std::nullopt;
+    }
+    return named_ ? parse_named_row(fields_, *named_, rules_, number, findings)
+                  : parse_row(fields_, rules_, number, findings);
   }
 
  private:
   MotRules rules_;
   std::int64_t first_ = 0;  // line that is not empty
+  std::optional<BoxFields> named_;
   std::vector<std::string_view> fields_;
   std::vector<std::string> owned_;
 };
@@ -159,12 +209,14 @@ struct MotReader::State {
             },
             [this](const MotRow& row) {
               ++rows;
+              from_zero = from_zero || row.frame == 0;
               has_categories = has_categories || row.category != -1;
             },
             std::move(pause)) {}
 
   std::int64_t rows = 0;
   bool has_categories = false;
+  bool from_zero = false;  // the file counts frames
   MotKind kind;
   bool is_kitti;
   FrameReader<MotRow> frames;
@@ -180,6 +232,7 @@ MotReader::MotReader(MotReader&&) noexcept = default;
 
 std::int64_t MotReader::rows() const { return state_->rows; }
 bool MotReader::in_order() const { return state_->frames.in_order(); }
+bool MotReader::counts_from_zero() const { return state_->from_zero; }
 bool MotReader::has_categories() const { return state_->has_categories; }
 
 std::span<const MotRow> MotReader::next() {
@@ -188,11 +241,13 @@ std::span<const MotRow> MotReader::next() {
   std::vector<std::pair<std::int64_t, std::int64_t>> ids;
   for (const FileRow<MotRow>& read : state_->frames.next()) {
     now.push_back(read.row);
+    if (state_->from_zero) ++now.back().frame;
     const bool is_ignored = state_->kind == MotKind::kTruth && read.row.confidence == 0.0;
     if (!is_ignored && state_->kind != MotKind::kDetections) ids.emplace_back(read.row.id, read.line);
   }
   if (!ids.empty()) {
-    state_->frames.refuse_twins(std::move(ids), now.front().frame - (state_->is_kitti ? 1 : 0));
+    const std::int32_t first = state_->is_kitti || state_->from_zero ? 0 : 1;
+    state_->frames.refuse_twins(std::move(ids), now.front().frame - 1 + first);
   }
   return now;
 }
@@ -224,7 +279,7 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;
   split_fields(text, fields, owned);
-  return is_header(fields) || (fields.size() >= kFewestFields && parse_number(fields.front())) ||
+  return BoxFields::find(fields) || is_header(fields) || (fields.size() >= kFewestFields && parse_number(fields.front())) ||
          looks_like_kitti_file(path);
 }
 

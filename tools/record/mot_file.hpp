@@ -41,8 +41,9 @@ BoxSource frames_of(std::span<const MotRow> rows);
 
 /// Reads a MOTChallenge text file frame by frame: rows `frame,id,left,top,width,height[,conf[,x,y,z]]`
 /// or, for ground truth, `…,flag,category,visibility`, separated by commas with or without blanks, or
-/// by tabs. Empty lines are skipped. The rows of a frame have the file's order. Labels of KITTI are
-/// read as well.
+/// by tabs. Below a header row with names, the columns are known by these (BoxFields), in any order
+/// and among others, and frames may count from 0. Empty lines are skipped. The rows of a frame have
+/// the file's order. Labels of KITTI are read as well.
 ///
 /// A file in the order of frames is read in constant memory, whatever its size; the rows of others,
 /// and of pipes, are held in memory.
@@ -60,6 +61,7 @@ class MotReader {
 
   std::int64_t rows() const;
   bool in_order() const;        // of frames, in the file
+  bool counts_from_zero() const;  // the frames of a table with names; given from 1 as others
   bool has_categories() const;  // some rows have one
 
   /// The rows of the next frame, valid until the next call; empty after the last.
@@ -79,8 +81,8 @@ std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kin
                                   std::optional<std::int32_t> last_frame = std::nullopt);
 
 /// Whether a file looks like a MOTChallenge file and not like a table of points: its first line has
-/// at least six fields, of numbers or of the names `frame,id,…left,…`; or like labels of KITTI. An
-/// unreadable or empty file does not.
+/// at least six fields, of numbers or of the names `frame,id,…left,…`, or it names those of a
+/// box; or it looks like labels of KITTI. An unreadable or empty file does not.
 bool looks_like_mot_file(const std::filesystem::path& path);
 
 /// Appends `frame,id,left,top,width,height,confidence,-1,-1,-1`. Coordinates have two decimals, as

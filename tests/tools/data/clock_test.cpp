@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tools/data/place.hpp"
 
 namespace ghtrack {
@@ -67,6 +69,7 @@ TEST(Place, TurnsDegreesIntoMetresAndBack) {
   const Eigen::Vector2d north = to_metres(origin, {37.46 + 1.0 / 60.0, 126.43});
   EXPECT_NEAR(north.x(), 0.0, 1e-6);
   EXPECT_NEAR(north.y(), 1852.0, 0.005 * 1852.0);
+  EXPECT_FALSE(std::signbit(to_metres(origin, origin).y()));  // read as "-0" otherwise
   const GeoPoint away{.latitude = 37.9, .longitude = 125.8};
   const GeoPoint back = to_degrees(origin, to_metres(origin, away));
   EXPECT_NEAR(back.latitude, away.latitude, 1e-11);

@@ -15,6 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 /// Scans as "t/sensor: x,y x,y; …".
@@ -142,9 +143,45 @@ TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
             expected);
   EXPECT_EQ(scans_of("# Timestamp,x,y\n01/01/1970 00:00:00,1,2\n01/01/1970 00:00:00.5,1.5,2.5\n"),
             expected);
+  // What datasets and autopilots write: titles of other shape, words joined by capitals, vectors
+  // beside the position.
+  EXPECT_EQ(scans_of("mass A\nt,x,y\n0,1,2\n0.5,1.5,2.5\n"), expected);
+  EXPECT_EQ(scans_of("Film 3\nmass A\nt;x;y\n0;1;2\n0,5;1,5;2,5\n"), expected);
+  EXPECT_EQ(scans_of("t x y\n0 1,0 2,0\n0,5 1,5 2,5\n"), expected);
+  EXPECT_EQ(scans_of("TimeUS,xCenter,yCenter\n0,1,2\n500000,1.5,2.5\n"), expected);
+  EXPECT_EQ(scans_of("#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],q_RS_x [],q_RS_y [],v_RS_R_x [m s^-1],"
+                     "v_RS_R_y [m s^-1]\n0,1,2,9,9,9,9\n500000000,1.5,2.5,9,9,9,9\n"),
+            expected);
+  EXPECT_EQ(scans_of("# timestamp tx ty tz qx qy qz qw\n0 1 2 9 0 0 0 1\n0.5 1.5 2.5 9 0 0 0 1\n"),
+            expected);
+  EXPECT_EQ(scans_of("Vehicle_ID,Global_Time,Local_X,Local_Y,Global_X,Global_Y\n1,0,1,2,9,9\n"
+                     "1,500,1.5,2.5,9,9\n",
+                     {.columns = "t=Global_Time[ms]"}),
+            expected);
+  EXPECT_THAT(message_of("t,p x (m/s^2),p y (m/s^2)\n0,1,2\n",
+                         [](const auto& path) { ScanReader reader(path.string()); }),
+              HasSubstr("column 'x' is missing"));
   EXPECT_THAT(message_of("vel t,vel x,vel y\n0,1,2\n",
                          [](const auto& path) { ScanReader reader(path.string()); }),
               HasSubstr("column 'x' is missing"));
+}
+
+// Property: what is measured in microseconds and taken for seconds is remarked upon, with a way out
+// that works; seconds are not.
+TEST(ScanReader, DoubtsTimesWithoutAUnit) {
+  const auto understood = [](const std::string& content, const ReadOptions& options = {}) {
+    const ScratchFolder folder;
+    return ScanReader(folder.write("in.csv", content).string(), options).summary().understood;
+  };
+  const std::string boot = "timestamp,x,y\n60000000,1,2\n60200000,1,2\n60400000,1,2\n";
+  EXPECT_THAT(understood(boot), HasSubstr("200000 s from row to row: if 'timestamp' is in another "
+                                          "unit, such as µs, say so by --columns 't=timestamp[us]'"));
+  EXPECT_THAT(understood(boot, {.columns = "t=timestamp[us]"}), Not(HasSubstr("another unit")));
+  EXPECT_THAT(understood("t,x,y\n0,1,2\n33,1,2\n67,1,2\n"), HasSubstr("such as ms"));
+  for (const char* sound : {"t,x,y\n0,1,2\n1,1,2\n2,1,2\n", "t (s),x,y\n0,1,2\n60,1,2\n120,1,2\n",
+                            "t,x,y\n1700000000,1,2\n1700003600,1,2\n1700007200,1,2\n"}) {
+    EXPECT_THAT(understood(sound), Not(HasSubstr("another unit"))) << sound;
+  }
 }
 
 // Derived: 13/1 can only have the day first, 1/13 only the month; the first row decides for all.
@@ -255,7 +292,7 @@ TEST(ScanReader, NamesLineAndColumn) {
             "in.csv:5: error: this row has 2 fields; the header row has 3");
   EXPECT_EQ(message_of("a,b\n", read),
             "in.csv:1: error: column 't' is missing; the header row has 'a', 'b'; --columns t=NAME "
-            "says which one it is\n"
+            "says which one it is, 't=NAME[ms]' in which unit\n"
             "in.csv:1: error: column 'x' is missing; the header row has 'a', 'b'; --columns x=NAME "
             "says which one it is\n"
             "in.csv:1: error: column 'y' is missing; the header row has 'a', 'b'; --columns y=NAME "

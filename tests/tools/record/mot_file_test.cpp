@@ -110,6 +110,48 @@ TEST(MotFile, ReadsEveryDialectAlike) {
   }
 }
 
+// Property: a table with names says the same in every order and shape, among other columns.
+TEST(MotFile, ReadsNamedColumns) {
+  const ScratchFolder folder;
+  for (const char* text :
+       {"frame,id,left,top,width,height,conf\n1,7,10,20,30,40,0.5\n2,7,11,20,30,40,0.5\n",
+        "frame_id,class,confidence,x1,y1,x2,y2,track_id\n1,car,0.5,10,20,40,60,7\n"
+        "2,car,0.5,11,20,41,60,7\n",
+        "x_min,y_min,x_max,y_max,class_id,confidence,tracker_id,frame_index\n"
+        "10,20,40,60,0,0.5,7,0\n11,20,41,60,0,0.5,7,1\n",
+        "Frame,TrackId,xCenter,yCenter,Width,Height,Score\n1,7,25,40,30,40,0.5\n"
+        "2,7,26,40,30,40,0.5\n",
+        "frame,id,x,y,width,height,score,xVelocity,yVelocity,a,b,c\n0,7,10,20,30,40,.5,1,2,3,4,5\n"
+        "1,7,11,20,30,40,.5,1,2,3,4,5\n"}) {
+    const auto path = folder.write("boxes.csv", text);
+    EXPECT_TRUE(looks_like_mot_file(path)) << text;
+    MotReader reader(path, MotKind::kResult);
+    for (const std::int32_t frame : {1, 2}) {
+      const auto rows = reader.next();
+      ASSERT_EQ(rows.size(), 1U) << text;
+      EXPECT_EQ(rows[0].frame, frame) << text;
+      EXPECT_EQ(rows[0].id, 7) << text;
+      EXPECT_EQ(rows[0].left, 9.0 + frame) << text;
+      EXPECT_EQ(rows[0].top, 20.0) << text;
+      EXPECT_EQ(rows[0].width, 30.0) << text;
+      EXPECT_EQ(rows[0].height, 40.0) << text;
+      EXPECT_EQ(rows[0].confidence, 0.5) << text;
+    }
+    EXPECT_TRUE(reader.next().empty()) << text;
+  }
+  EXPECT_FALSE(looks_like_mot_file(folder.write("a.csv", "t,x,y,width,height,note\n0,1,2,3,4,5\n")));
+  try {
+    MotReader(folder.write("b.csv", "frame,x1,y1,x2,y2\n0,1,2,3\n0,1,2,no,4\n-1,1,2,3,4\n1,3,2,1,4\n"),
+              MotKind::kDetections);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("b.csv:2: error: this row has 4 fields; the header row has 5"));
+    EXPECT_THAT(error.what(), HasSubstr("b.csv:3: error: 'no' in field 4 is not a finite number"));
+    EXPECT_THAT(error.what(), HasSubstr("b.csv:4: error: frame '-1' is not a whole number from 0"));
+    EXPECT_THAT(error.what(), HasSubstr("b.csv:5: error: width '-2' and height '2' must be above 0"));
+  }
+}
+
 // Property: each defect is reported with its line and what is allowed.
 TEST(MotFile, NamesLineAndReason) {
   EXPECT_EQ(detections_message("1,-1,1,2,3,4,1\n2,-1,nan,2,3,4,1\n"),
