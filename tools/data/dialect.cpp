@@ -79,7 +79,7 @@ std::string_view take_quoted(std::string_view& rest, std::vector<std::string>& o
 }
 
 constexpr std::array<char, 4> kMarks = {';', '\t', '|', ','};  // that separate, but for blanks
-constexpr std::size_t kMostTitles = 4;                          // or it is one column
+constexpr std::size_t kMostTitles = 4;                         // or it is one column
 
 /// The mark that every line has, each as often; none if there is no such, or fewer than two lines.
 std::optional<char> agreed_mark(std::span<const std::string> lines) {

@@ -55,8 +55,9 @@ constexpr std::array<Alias, 16> kAliases = {{
     {Role::kY,
      "y y_pos ypos pos_y posy position_y y_position py point_y y_coord coord_y north northing "
      "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc mass_a_y v ty local_y"},
-    {Role::kZ, "z value measurement measured reading position pos distance range height altitude "
-               "data signal x"},
+    {Role::kZ,
+     "z value measurement measured reading position pos distance range height altitude "
+     "data signal x"},
     {Role::kLatitude,
      "lat latitude lat_deg latitude_deg gps_lat location_lat position_lat gps_latitude latitud "
      "latitudine breite breitengrad geographische_breite"},
@@ -269,7 +270,8 @@ namespace {
 std::string_view telling_word(std::string_view base) {
   constexpr std::string_view kOthers =
       "v vel velocity speed twist linear geschwindigkeit a acc accel acceleration beschleunigung "
-      "gyro gyr omega w angular rotation rot orientation quaternion quat q covariance force kraft mag "
+      "gyro gyr omega w angular rotation rot orientation quaternion quat q covariance force kraft "
+      "mag "
       "gravity grav bias size sigma std error err residual offset start end delta d min max";
   const std::size_t last = base.find_last_of("_:");
   if (last == std::string_view::npos) return {};

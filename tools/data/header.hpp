@@ -12,9 +12,9 @@ namespace ghtrack {
 
 /// What a column of a table can mean.
 enum class Role {
-  kTime,       // a number, or a date and time
-  kDate,       // of a time of day in another column
-  kFrame,      // the number of an image
+  kTime,   // a number, or a date and time
+  kDate,   // of a time of day in another column
+  kFrame,  // the number of an image
   kX,
   kY,
   kZ,          // the value of a series
@@ -24,7 +24,7 @@ enum class Role {
   kIdentity,
   kSensor,
   kClass,
-  kSigma,      // 1-sigma error of both coordinates
+  kSigma,  // 1-sigma error of both coordinates
   kSigmaX,
   kSigmaY,
   kStatus,

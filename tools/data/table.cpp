@@ -293,11 +293,11 @@ std::size_t Table::required(Role role) {
                                     to_string(role)));
     return 0;
   }
-  findings_.add(line, fmt::format("column '{}' is missing; the header row has {}; --columns "
-                                  "{}=NAME says which one it is{}",
-                                  to_string(role), known.empty() ? "nothing" : known,
-                                  to_string(role),
-                                  role == Role::kTime ? ", 't=NAME[ms]' in which unit" : ""));
+  findings_.add(line,
+                fmt::format("column '{}' is missing; the header row has {}; --columns "
+                            "{}=NAME says which one it is{}",
+                            to_string(role), known.empty() ? "nothing" : known, to_string(role),
+                            role == Role::kTime ? ", 't=NAME[ms]' in which unit" : ""));
   return 0;
 }
 

@@ -56,13 +56,14 @@ std::string TimeColumn::describe(const Table& table) const {
 }
 
 std::string TimeColumn::doubt(const Table& table, double period) const {
-  constexpr double kSlow = 10.0;     // more was hardly measured in whole seconds
+  constexpr double kSlow = 10.0;      // more was hardly measured in whole seconds
   constexpr double kSlower = 1000.0;  // nor in milliseconds
   if (clock_->meaning() != "s" || table.headings()[column_].unit || period < kSlow) return "";
-  return fmt::format("; {:g} s from row to row: if {} is in another unit, such as {}, say so by "
-                     "--columns 't={}[{}]'",
-                     period, name_of_column(table, column_), period < kSlower ? "ms" : "µs",
-                     table.headings()[column_].text, period < kSlower ? "ms" : "us");
+  return fmt::format(
+      "; {:g} s from row to row: if {} is in another unit, such as {}, say so by "
+      "--columns 't={}[{}]'",
+      period, name_of_column(table, column_), period < kSlower ? "ms" : "µs",
+      table.headings()[column_].text, period < kSlower ? "ms" : "us");
 }
 
 bool TimeColumn::is_plain(const Table& table) const {

@@ -7,21 +7,32 @@
 
 namespace ghtrack::plot {
 
+namespace {
+
+/// A tick with the decimals that the step needs.
+std::string number_at(const Axis& axis, double tick) {
+  if (axis.is_logarithmic) return fmt::format("{:.3g}", std::pow(10.0, tick));
+  const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
+  if (largest >= 1e6 || (largest > 0.0 && largest < 1e-3)) {
+    return std::abs(tick) < 1e-9 * largest ? "0" : fmt::format("{:.4g}", tick);
+  }
+  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(axis.step) + 1e-9)));
+  const std::string text = fmt::format("{:.{}f}", tick, decimals);
+  return text.find_first_not_of("-0.") == std::string::npos ? fmt::format("{:.{}f}", 0.0, decimals)
+                                                            : text;
+}
+
+}  // namespace
+
 double Axis::share(double value) const {
   return ((is_logarithmic ? std::log10(value) : value) - low) / span();
 }
 
 std::string Axis::label(double tick) const {
   if (!names.empty()) return names.at(static_cast<std::size_t>(std::lround(tick)));
-  if (is_logarithmic) return fmt::format("{:.3g}", std::pow(10.0, tick));
-  const double largest = std::max(std::abs(low), std::abs(high));
-  if (largest >= 1e6 || (largest > 0.0 && largest < 1e-3)) {
-    return std::abs(tick) < 1e-9 * largest ? "0" : fmt::format("{:.4g}", tick);
-  }
-  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  const std::string text = fmt::format("{:.{}f}", tick, decimals);
-  return text.find_first_not_of("-0.") == std::string::npos ? fmt::format("{:.{}f}", 0.0, decimals)
-                                                            : text;
+  std::string text = number_at(*this, tick);
+  if (text.starts_with('-')) text.replace(0, 1, "−");  // as wide as a plus sign
+  return text;
 }
 
 Axis axis_over(double low, double high, double ticks, bool tight) {

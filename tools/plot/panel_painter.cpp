@@ -188,18 +188,21 @@ void draw_axes(Canvas& canvas, const Panel& panel, const Frame& frame, const Rec
     canvas.text(at, plot.y + plot.height + small * 1.35, frame.x.label(tick), small, palette.ink,
                 Align::kCentre);
   }
+  double widest = 0.0;  // label beside the plot
   for (const double tick : frame.y.ticks) {
     const double at = frame.tick_y(tick);
+    const std::string label = frame.y.label(tick);
     canvas.line(plot.x, at, plot.x + plot.width, at, 0.6, palette.grid);
-    canvas.text(plot.x - small * 0.5, at + small * 0.36, frame.y.label(tick), small, palette.ink,
-                Align::kRight);
+    canvas.text(plot.x - small * 0.5, at + small * 0.36, label, small, palette.ink, Align::kRight);
+    widest = std::max(widest, canvas.text_width(label, small));
   }
   canvas.text(plot.x, place.y + font_size * 1.1, panel.title, font_size, palette.ink, Align::kLeft,
               true);
   canvas.text(plot.x + plot.width / 2.0, place.y + place.height - font_size * 0.25, panel.x_label,
               small, palette.ink, Align::kCentre);
-  canvas.text(place.x + small, plot.y + plot.height / 2.0, panel.y_label, small, palette.ink,
-              Align::kCentre, false, -std::numbers::pi / 2.0);
+  const double beside = std::max(place.x + small, plot.x - widest - small * 1.3);
+  canvas.text(beside, plot.y + plot.height / 2.0, panel.y_label, small, palette.ink, Align::kCentre,
+              false, -std::numbers::pi / 2.0);
 }
 
 struct Entry {

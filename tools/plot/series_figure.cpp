@@ -81,12 +81,20 @@ void add_bounds(Panel& panel) {
   panel.levels = {{2.0 * rms, "+ 2 rms" + whose}, {-2.0 * rms, "− 2 rms" + whose}};
 }
 
-/// The panels of one axis; its columns end in `suffix`.
-void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const std::string& suffix,
+/// The panels of one axis of a vector, or of a series that has no other.
+/// @param axis  "x", "y" or "z"; empty if there is no other
+void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const std::string& axis,
               Figure& figure) {
   const std::string& first = series.filters.front();
-  Panel values = panel_of(series, labels, "estimate" + suffix, labels.value + suffix, "x" + suffix,
-                          Mark::kLine);
+  const std::string suffix = axis.empty() ? "" : "_" + axis;  // of its columns
+  const auto title = [&](const std::string& what) {
+    return axis.empty() ? what : fmt::format("{} in {}", what, axis);
+  };
+  const bool is_named = labels.value != SeriesLabels{}.value;
+  const std::string quantity = axis.empty() ? labels.value
+                               : is_named   ? fmt::format("{}, {}", labels.value, axis)
+                                            : axis;
+  Panel values = panel_of(series, labels, title("estimate"), quantity, "x" + suffix, Mark::kLine);
   values.wide = true;
   for (std::size_t i = 0; i < values.curves.size(); ++i) {  // the colours are those of all panels
     const auto called = labels.filters.find(series.filters[i]);
@@ -108,12 +116,12 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
   }
   figure.panels.push_back(std::move(values));
   Panel residual =
-      panel_of(series, labels, "residual" + suffix, "z − prior", "residual" + suffix, Mark::kLine);
+      panel_of(series, labels, title("residual"), "z − prior", "residual" + suffix, Mark::kLine);
   add_bounds(residual);
   figure.panels.push_back(std::move(residual));
   if (truth != nullptr) {
-    Panel error = panel_of(series, labels, "error" + suffix, "estimate − truth", "x" + suffix,
-                           Mark::kLine);
+    Panel error =
+        panel_of(series, labels, title("error"), "estimate − truth", "x" + suffix, Mark::kLine);
     for (std::size_t i = 0; i < error.curves.size(); ++i) {
       const auto* const own = column(series, series.filters[i], "truth" + suffix);
       for (std::size_t k = 0; own != nullptr && k < error.curves[i].y.size(); ++k) {
@@ -122,7 +130,9 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
     }
     figure.panels.push_back(std::move(error));
   }
-  Panel rate = panel_of(series, labels, "rate" + suffix, "dx" + suffix, "dx" + suffix, Mark::kLine);
+  Panel rate =
+      panel_of(series, labels, title("rate"), fmt::format("d{}/dt", axis.empty() ? "x" : axis),
+               "dx" + suffix, Mark::kLine);
   const bool has_rate = std::any_of(rate.curves.begin(), rate.curves.end(), [](const Curve& curve) {
     return std::any_of(curve.y.begin(), curve.y.end(),
                        [](double value) { return value != 0.0 && std::isfinite(value); });
@@ -145,8 +155,8 @@ Figure figure_of_series(const std::string& path, const SeriesLabels& labels) {
   if (columns.contains("x")) {
     add_axis(series, labels, "", figure);
   } else {
-    for (const char* suffix : {"_x", "_y", "_z"}) {
-      if (columns.contains(std::string("x") + suffix)) add_axis(series, labels, suffix, figure);
+    for (const std::string axis : {"x", "y", "z"}) {
+      if (columns.contains("x_" + axis)) add_axis(series, labels, axis, figure);
     }
   }
   return figure;

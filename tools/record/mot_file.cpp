@@ -124,10 +124,12 @@ std::optional<MotRow> parse_named_row(const std::vector<std::string_view>& field
   const double confidence = named.confidence ? number(*named.confidence) : 1.0;
   if (!is_sound) return std::nullopt;
   const Values values = {frame, id, box.left, box.top, box.width, box.height, confidence};
-  const std::string width = fmt::format("{:g}", box.width), height = fmt::format("{:g}", box.height);
-  return checked_row(values, kFewestFields + 1,
-                     {fields[named.frame], named.id ? fields[*named.id] : "", "", "", width, height},
-                     rules, line, findings);
+  const std::string width = fmt::format("{:g}", box.width),
+                    height = fmt::format("{:g}", box.height);
+  return checked_row(
+      values, kFewestFields + 1,
+      {fields[named.frame], named.id ? fields[*named.id] : "", "", "", width, height}, rules, line,
+      findings);
 }
 
 /// A header in the order of MOTChallenge, whatever its words: "frame,id,bb_left,bb_top,…".
@@ -279,7 +281,8 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;
   split_fields(text, fields, owned);
-  return BoxFields::find(fields) || is_header(fields) || (fields.size() >= kFewestFields && parse_number(fields.front())) ||
+  return BoxFields::find(fields) || is_header(fields) ||
+         (fields.size() >= kFewestFields && parse_number(fields.front())) ||
          looks_like_kitti_file(path);
 }
 

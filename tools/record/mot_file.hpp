@@ -39,11 +39,12 @@ using BoxSource = std::function<std::span<const MotRow>()>;
 /// @param rows  by frame
 BoxSource frames_of(std::span<const MotRow> rows);
 
-/// Reads a MOTChallenge text file frame by frame: rows `frame,id,left,top,width,height[,conf[,x,y,z]]`
-/// or, for ground truth, `…,flag,category,visibility`, separated by commas with or without blanks, or
-/// by tabs. Below a header row with names, the columns are known by these (BoxFields), in any order
-/// and among others, and frames may count from 0. Empty lines are skipped. The rows of a frame have
-/// the file's order. Labels of KITTI are read as well.
+/// Reads a MOTChallenge text file frame by frame: rows
+/// `frame,id,left,top,width,height[,conf[,x,y,z]]` or, for ground truth,
+/// `…,flag,category,visibility`, separated by commas with or without blanks, or by tabs. Below a
+/// header row with names, the columns are known by these (BoxFields), in any order and among
+/// others, and frames may count from 0. Empty lines are skipped. The rows of a frame have the
+/// file's order. Labels of KITTI are read as well.
 ///
 /// A file in the order of frames is read in constant memory, whatever its size; the rows of others,
 /// and of pipes, are held in memory.

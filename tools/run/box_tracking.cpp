@@ -221,8 +221,8 @@ std::string summary(const BoxTrackerConfig& config, const BoxTracking& tracking)
                       ".start_confidence or .confirm_existence may be too strict",
                       tracking.state.next_id - 1);
   }
-  return line + fmt::format("{} tracks confirmed of {} begun", tracking.tracks,
-                            tracking.state.next_id - 1);
+  return line + fmt::format("{} {} confirmed of {} begun", tracking.tracks,
+                            tracking.tracks == 1 ? "track" : "tracks", tracking.state.next_id - 1);
 }
 
 }  // namespace ghtrack

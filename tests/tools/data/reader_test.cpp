@@ -149,9 +149,10 @@ TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
   EXPECT_EQ(scans_of("Film 3\nmass A\nt;x;y\n0;1;2\n0,5;1,5;2,5\n"), expected);
   EXPECT_EQ(scans_of("t x y\n0 1,0 2,0\n0,5 1,5 2,5\n"), expected);
   EXPECT_EQ(scans_of("TimeUS,xCenter,yCenter\n0,1,2\n500000,1.5,2.5\n"), expected);
-  EXPECT_EQ(scans_of("#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],q_RS_x [],q_RS_y [],v_RS_R_x [m s^-1],"
-                     "v_RS_R_y [m s^-1]\n0,1,2,9,9,9,9\n500000000,1.5,2.5,9,9,9,9\n"),
-            expected);
+  EXPECT_EQ(
+      scans_of("#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],q_RS_x [],q_RS_y [],v_RS_R_x [m s^-1],"
+               "v_RS_R_y [m s^-1]\n0,1,2,9,9,9,9\n500000000,1.5,2.5,9,9,9,9\n"),
+      expected);
   EXPECT_EQ(scans_of("# timestamp tx ty tz qx qy qz qw\n0 1 2 9 0 0 0 1\n0.5 1.5 2.5 9 0 0 0 1\n"),
             expected);
   EXPECT_EQ(scans_of("Vehicle_ID,Global_Time,Local_X,Local_Y,Global_X,Global_Y\n1,0,1,2,9,9\n"
@@ -174,8 +175,9 @@ TEST(ScanReader, DoubtsTimesWithoutAUnit) {
     return ScanReader(folder.write("in.csv", content).string(), options).summary().understood;
   };
   const std::string boot = "timestamp,x,y\n60000000,1,2\n60200000,1,2\n60400000,1,2\n";
-  EXPECT_THAT(understood(boot), HasSubstr("200000 s from row to row: if 'timestamp' is in another "
-                                          "unit, such as µs, say so by --columns 't=timestamp[us]'"));
+  EXPECT_THAT(understood(boot),
+              HasSubstr("200000 s from row to row: if 'timestamp' is in another "
+                        "unit, such as µs, say so by --columns 't=timestamp[us]'"));
   EXPECT_THAT(understood(boot, {.columns = "t=timestamp[us]"}), Not(HasSubstr("another unit")));
   EXPECT_THAT(understood("t,x,y\n0,1,2\n33,1,2\n67,1,2\n"), HasSubstr("such as ms"));
   for (const char* sound : {"t,x,y\n0,1,2\n1,1,2\n2,1,2\n", "t (s),x,y\n0,1,2\n60,1,2\n120,1,2\n",

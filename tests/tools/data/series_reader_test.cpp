@@ -223,7 +223,8 @@ TEST(SeriesReader, ReadsPlacesAsTracksAreRead) {
         "time,lat,lon\n0,50°0'0\"N,8°E\n1,,\n2,50°0'3.6\"N,8°E\n",
         "time,lat,lon\n0,500000000,80000000\n1,,\n2,500010000,80000000\n",
         "time,position_lat,position_long\n0,596523236,95443718\n1,,\n2,596535166,95443718\n",
-        "time;Position\n0;50,8\n1;\n2;50.001,8\n", "time,Position\n1,\n0,\"50,8\"\n2,\"50.001,8\"\n",
+        "time;Position\n0;50,8\n1;\n2;50.001,8\n",
+        "time,Position\n1,\n0,\"50,8\"\n2,\"50.001,8\"\n",
         "time,wkt\n0,POINT (8 50)\n1,NA\n2,POINT (8 50.001)\n",
         "time,lat,lon\n0,50,8\n1,91,181\n2,50.001,8\n"}) {
     const ScratchFolder folder;

@@ -37,7 +37,7 @@ TEST(Axis, HasRoundTicks) {
     }
   }
   EXPECT_EQ(axis_over(0.0, 1.0, 5.0, true).label(0.2), "0.2");
-  EXPECT_EQ(axis_over(-100.0, 100.0, 5.0, true).label(-50.0), "-50");
+  EXPECT_EQ(axis_over(-100.0, 100.0, 5.0, true).label(-50.0), "−50");
 }
 
 std::string bytes_of(const std::filesystem::path& path) {

@@ -139,16 +139,20 @@ TEST(MotFile, ReadsNamedColumns) {
     }
     EXPECT_TRUE(reader.next().empty()) << text;
   }
-  EXPECT_FALSE(looks_like_mot_file(folder.write("a.csv", "t,x,y,width,height,note\n0,1,2,3,4,5\n")));
+  EXPECT_FALSE(
+      looks_like_mot_file(folder.write("a.csv", "t,x,y,width,height,note\n0,1,2,3,4,5\n")));
   try {
-    MotReader(folder.write("b.csv", "frame,x1,y1,x2,y2\n0,1,2,3\n0,1,2,no,4\n-1,1,2,3,4\n1,3,2,1,4\n"),
-              MotKind::kDetections);
+    MotReader(
+        folder.write("b.csv", "frame,x1,y1,x2,y2\n0,1,2,3\n0,1,2,no,4\n-1,1,2,3,4\n1,3,2,1,4\n"),
+        MotKind::kDetections);
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("b.csv:2: error: this row has 4 fields; the header row has 5"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("b.csv:2: error: this row has 4 fields; the header row has 5"));
     EXPECT_THAT(error.what(), HasSubstr("b.csv:3: error: 'no' in field 4 is not a finite number"));
     EXPECT_THAT(error.what(), HasSubstr("b.csv:4: error: frame '-1' is not a whole number from 0"));
-    EXPECT_THAT(error.what(), HasSubstr("b.csv:5: error: width '-2' and height '2' must be above 0"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("b.csv:5: error: width '-2' and height '2' must be above 0"));
   }
 }
 

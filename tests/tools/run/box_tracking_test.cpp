@@ -241,7 +241,7 @@ TEST(BoxTracking, SaysWhatWasReadLearnedAndConfirmed) {
   const std::vector<MotRow> detections = walk(40, {21});
   const std::string line = summary({}, track_boxes({}, {}, detections));
   EXPECT_NE(line.find("39 boxes in 39 images, confidence 1.00 ± 0.00"), std::string::npos) << line;
-  EXPECT_NE(line.find("1 tracks confirmed of 1 begun"), std::string::npos) << line;
+  EXPECT_NE(line.find("1 track confirmed of 1 begun"), std::string::npos) << line;
   const BoxTrackerConfig strict{.acceleration = 0.01, .start_confidence = 2.0};
   const std::string none = summary(strict, track_boxes(strict, {}, detections));
   EXPECT_NE(none.find("0.0100 (given)"), std::string::npos) << none;
