@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/experiment/labelled_objects.hpp"
-#include "tracker/filters/axis_covariance.hpp"
+#include "tools/experiment/lanes.hpp"
 #include "tracker/filters/gain_filter.hpp"
 
 namespace ghtrack {
@@ -22,23 +21,19 @@ class EvenObjects {
   static std::optional<EvenObjects> among(std::span<const LabelledObject* const> objects,
                                           std::vector<const LabelledObject*>& others);
 
-  std::size_t scans() const { return scans_ * lanes_ / 2; }
+  const Lanes& lanes() const { return lanes_; }
+  std::size_t scans() const { return lanes_.scans().size() * lanes_.count() / 2; }
 
   /// The sum of expected_errors() of position of all objects: the same numbers, for a sensor without
   /// bias or outliers. @param filter  has not started yet; its gains depend on times and accuracy only
   Mean expected_error(GainFilter<2> filter) const;
 
-  /// The sum of smoothed_errors() of position of all objects, for motion of such noise.
-  /// @param noise   what a step adds on an axis
-  /// @param spread  standard deviation of velocity and acceleration at first sight [m/s, m/s²]
-  Mean smoothed_error(int order, const AxisCovariance<double>& noise,
-                      const AxisGain<double>& spread) const;
-
  private:
-  std::size_t lanes_ = 0, scans_ = 0;
-  double interval_ = 0.0;    // [s]
-  Eigen::Matrix2d error_;    // covariance of a measurement [m²], the same on both axes
-  std::vector<double> truth_, measured_;  // lane by lane of each scan [m]
+  explicit EvenObjects(std::span<const LabelledObject* const> alike);
+
+  Lanes lanes_;
+  double interval_;        // [s]
+  Eigen::Matrix2d error_;  // covariance of a measurement [m²], the same on both axes
 };
 
 }  // namespace ghtrack

@@ -159,14 +159,27 @@ FoundNumber least_cost_of_number(double low, double high, int points, int sectio
     best = {at(i), value};
     place = i;
   }
+  // Golden sections: one of the two places within is one of the next two.
   double from = place - 1.0, to = place + 1.0;
-  for (int i = 0; i < sections; ++i) {
-    const double left = to - kGolden * (to - from);
-    const double right = from + kGolden * (to - from);
-    const double of_left = cost(at(left)), of_right = cost(at(right));
-    if (of_left < best.cost) best = {at(left), of_left};
-    if (of_right < best.cost) best = {at(right), of_right};
-    (of_left < of_right ? to : from) = of_left < of_right ? right : left;
+  const auto look = [&](double where) {
+    const double value = cost(at(where));
+    if (value < best.cost) best = {at(where), value};
+    return value;
+  };
+  double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
+  double of_left = look(left), of_right = look(right);
+  for (int i = 1; i < sections; ++i) {
+    if (of_left < of_right) {
+      to = std::exchange(right, left);
+      of_right = of_left;
+      left = to - kGolden * (to - from);
+      of_left = look(left);
+    } else {
+      from = std::exchange(left, right);
+      of_left = of_right;
+      right = from + kGolden * (to - from);
+      of_right = look(right);
+    }
   }
   return best;
 }

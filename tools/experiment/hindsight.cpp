@@ -8,6 +8,7 @@
 
 #include "tools/experiment/even_objects.hpp"
 #include "tools/experiment/gain_search.hpp"
+#include "tools/experiment/lanes.hpp"
 #include "tools/experiment/parallel.hpp"
 #include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/axis_covariance.hpp"
@@ -47,6 +48,11 @@ class Judge {
       even_ = EvenObjects::among(objects_, others_);
     } else {
       others_.assign(objects_.begin(), objects_.end());
+    }
+    std::size_t scans = 0;
+    for (const LabelledObject* object : others_) {
+      if (scans <= kMostSmoothed) lanes_.push_back(Lanes::of(*object));
+      scans += object->scans.size();
     }
   }
 
@@ -121,17 +127,21 @@ class Judge {
     config.model = noise;
     config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
     config.initial_acceleration = config.initial_speed / scoring_.period;
+    const LaneMotion motion{
+        .order = Order,
+        .noise_over =
+            [&](double dt) {
+              return process_noise(ProcessModel::kPiecewiseConstant, Order, noise.process_noise, dt,
+                                   scoring_.period);
+            },
+        .spread = {0.0, config.initial_speed, config.initial_acceleration}};
     Mean squares;
-    if (even_) {
-      squares += even_->smoothed_error(Order,
-                                       process_noise(ProcessModel::kPiecewiseConstant, Order,
-                                                     noise.process_noise, scoring_.period),
-                                       {0.0, config.initial_speed, config.initial_acceleration});
-    }
+    if (even_) squares += even_->lanes().smoothed_error(motion);
     std::size_t scans = 0;
-    for (const LabelledObject* object : others_) {
-      squares += smoothed_errors(config, scoring_, *object).position;
-      if ((scans += object->scans.size()) > kMostSmoothed) break;
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+      squares += lanes_[i] ? lanes_[i]->smoothed_error(motion)
+                           : smoothed_errors(config, scoring_, *others_[i]).position;
+      if ((scans += others_[i]->scans.size()) > kMostSmoothed) break;
     }
     return squares.root().value_or(kNoValue);
   }
@@ -152,6 +162,7 @@ class Judge {
   std::vector<std::vector<ErrorPart>> errors_;
   std::optional<EvenObjects> even_;            // go through a filter together,
   std::vector<const LabelledObject*> others_;  // one by one
+  std::vector<std::optional<Lanes>> lanes_;    // of others; none where their axes differ
   bool is_plain_ = true;
   bool has_variance_ = true;
 };

@@ -80,30 +80,55 @@ TEST_F(SomeObjects, HaveTheErrorsToBeExpectedThatEachHas) {
   }
 }
 
-// Property: so it is with smoothers.
+// Property: so it is with smoothers, of those that were missed and of uneven times, too.
 TEST_F(SomeObjects, AreSmoothedAsEachIs) {
   RunMetricsOptions scoring;
   scoring.sigma = kSigma;
   scoring.period = kPeriod;
+  for (ObjectScan& scan : objects_[6].scans) scan.time += 0.2 * std::sin(3.0 * scan.time);
+  ObjectScan again = objects_[6].scans[10];  // a second sensor at the same instant, a rougher one
+  again.detection->covariance *= 4.0;
+  objects_[6].scans.insert(objects_[6].scans.begin() + 10, again);
   const auto compare = [&]<int Order>(std::integral_constant<int, Order>, double intensity) {
     KalmanConfig<Order> config;
     config.model = process::PiecewiseConstant{.process_noise = intensity};
     config.initial_speed = 30.0;
     config.initial_acceleration = 50.0;
+    const LaneMotion motion{.order = Order,
+                            .noise_over =
+                                [&](double dt) {
+                                  return process_noise(ProcessModel::kPiecewiseConstant, Order,
+                                                       intensity, dt, kPeriod);
+                                },
+                            .spread = {0.0, 30.0, 50.0}};
+    const auto expect_same = [&](const Mean& found, const Mean& expected) {
+      EXPECT_DOUBLE_EQ(found.weight(), expected.weight());
+      EXPECT_NEAR(*found.value() / *expected.value(), 1.0, 1e-6) << intensity << " " << Order;
+    };
     Mean expected;
     for (int i = 0; i < 5; ++i) {
       expected += smoothed_errors(config, scoring, objects_[i]).position;
     }
-    const Mean found = even_->smoothed_error(
-        Order, process_noise(ProcessModel::kPiecewiseConstant, Order, intensity, kPeriod),
-        {0.0, 30.0, 50.0});
-    EXPECT_DOUBLE_EQ(found.weight(), expected.weight());
-    EXPECT_NEAR(*found.value() / *expected.value(), 1.0, 1e-6) << intensity << " " << Order;
+    expect_same(even_->lanes().smoothed_error(motion), expected);
+    for (const LabelledObject* other : others_) {
+      const auto lanes = Lanes::of(*other);
+      ASSERT_TRUE(lanes);
+      expect_same(lanes->smoothed_error(motion), smoothed_errors(config, scoring, *other).position);
+    }
   };
   for (const double intensity : {0.01, 0.3, 10.0}) {
     compare(std::integral_constant<int, 1>(), intensity);
     compare(std::integral_constant<int, 2>(), intensity);
   }
+}
+
+// Derived: an error that couples the axes, or differs between them, has no lanes.
+TEST_F(SomeObjects, HaveLanesWhereTheirAxesAreAlike) {
+  EXPECT_TRUE(Lanes::of(objects_[5]));
+  objects_[5].scans[30].detection->covariance(0, 0) *= 2.0;
+  EXPECT_FALSE(Lanes::of(objects_[5]));
+  objects_[6].scans[30].detection->covariance(0, 1) = 0.1;
+  EXPECT_FALSE(Lanes::of(objects_[6]));
 }
 
 }  // namespace
