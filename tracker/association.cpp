@@ -25,11 +25,7 @@ class ShortestPaths {
       : table_(table),
         detections_(detections),
         miss_cost_(miss_cost),
-        owner_(detections + table.rows(), kMissed),
-        price_(owner_.size(), 0.0),
-        distance_(owner_.size(), kUnreached),
-        is_settled_(owner_.size(), false),
-        parent_(owner_.size(), kMissed),
+        columns_(detections + table.rows()),
         assigned_column_(table.rows(), kMissed),
         budget_(kBudget + kBudgetOfTrack * assigned_column_.size()) {}
 
@@ -37,12 +33,20 @@ class ShortestPaths {
     for (int track = 0; track < table_.rows(); ++track) augment(track);
     std::vector<int> result(table_.rows(), kMissed);
     for (int column = 0; column < detections_; ++column) {
-      if (owner_[column] != kMissed) result[owner_[column]] = column;
+      if (columns_[column].owner != kMissed) result[columns_[column].owner] = column;
     }
     return result;
   }
 
  private:
+  struct Column {
+    double price = 0.0;   // its dual variable
+    int owner = kMissed;  // its track
+    // During one search:
+    int parent = kMissed;  // the row before it
+    double distance = kUnreached;
+    bool is_settled = false;  // its distance is final
+  };
   struct Entry {
     double distance;
     int column;
@@ -66,40 +70,44 @@ class ShortestPaths {
       std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
       const Entry nearest = heap_.back();
       heap_.pop_back();
-      if (is_settled_[nearest.column]) continue;  // by a shorter way
-      is_settled_[nearest.column] = true;
+      Column& column = columns_[nearest.column];
+      if (column.is_settled) continue;  // by a shorter way
+      column.is_settled = true;
       settled_.push_back(nearest.column);
-      if (owner_[nearest.column] == kMissed) {
+      if (column.owner == kMissed) {
         free_column = nearest.column;
         shortest = nearest.distance;
       } else {
-        relax_row(owner_[nearest.column], nearest.distance);
+        relax_row(column.owner, nearest.distance);
       }
     }
     budget_ -= std::min(budget_, settled_.size());
     if (free_column == kMissed) {
       take_if_free(track, detections_ + track);
     } else {
-      for (const int column : settled_) price_[column] += distance_[column] - shortest;
+      for (const int column : settled_) {
+        columns_[column].price += columns_[column].distance - shortest;
+      }
     }
     for (int column = free_column; column != kMissed;) {
-      const int row = parent_[column];
+      const int row = columns_[column].parent;
       const int previous = row == track ? kMissed : assigned_column_[row];
-      owner_[column] = row;
+      columns_[column].owner = row;
       assigned_column_[row] = column;
       column = previous;
     }
     for (const int column : reached_) {
-      distance_[column] = kUnreached;
-      is_settled_[column] = false;
+      columns_[column].distance = kUnreached;
+      columns_[column].is_settled = false;
     }
   }
 
   /// The column that is cheapest for a track, the first one of equals.
   int favourite(int track) const {
-    Entry best{miss_cost_ - price_[detections_ + track], detections_ + track};
+    Entry best{miss_cost_ - columns_[detections_ + track].price, detections_ + track};
     for (const Candidate& candidate : table_.row(track)) {
-      best = std::min(best, {candidate.cost - price_[candidate.detection], candidate.detection});
+      const double cost = candidate.cost - columns_[candidate.detection].price;
+      best = std::min(best, {cost, candidate.detection});
     }
     return best.column;
   }
@@ -107,8 +115,8 @@ class ShortestPaths {
   /// Nobody has to move for a free favourite, and no price changes: the usual case, spared a
   /// search.
   bool take_if_free(int track, int column) {
-    if (owner_[column] != kMissed) return false;
-    owner_[column] = track;
+    if (columns_[column].owner != kMissed) return false;
+    columns_[column].owner = track;
     assigned_column_[track] = column;
     return true;
   }
@@ -116,19 +124,21 @@ class ShortestPaths {
   /// Reduced costs of a row are measured from its own column, so that they are never negative.
   void relax_row(int row, double base) {
     const int own = assigned_column_[row];
-    const double offset = own == kMissed ? base : base - cost_of(row, own) + price_[own];
+    const double offset = own == kMissed ? base : base - cost_of(row, own) + columns_[own].price;
     for (const Candidate& candidate : table_.row(row)) {
-      relax(row, candidate.detection, offset + candidate.cost - price_[candidate.detection]);
+      relax(row, candidate.detection,
+            offset + candidate.cost - columns_[candidate.detection].price);
     }
-    relax(row, detections_ + row, offset + miss_cost_ - price_[detections_ + row]);
+    relax(row, detections_ + row, offset + miss_cost_ - columns_[detections_ + row].price);
   }
 
-  void relax(int row, int column, double distance) {
-    if (is_settled_[column] || !(distance < distance_[column])) return;
-    if (distance_[column] == kUnreached) reached_.push_back(column);
-    distance_[column] = distance;
-    parent_[column] = row;
-    heap_.push_back({distance, column});
+  void relax(int row, int number, double distance) {
+    Column& column = columns_[number];
+    if (column.is_settled || !(distance < column.distance)) return;
+    if (column.distance == kUnreached) reached_.push_back(number);
+    column.distance = distance;
+    column.parent = row;
+    heap_.push_back({distance, number});
     std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
   }
 
@@ -143,11 +153,7 @@ class ShortestPaths {
   const CandidateTable& table_;
   int detections_;
   double miss_cost_;
-  std::vector<int> owner_;            // of each column: its track
-  std::vector<double> price_;         // of each column: its dual variable
-  std::vector<double> distance_;      // of each column, during one search
-  std::vector<bool> is_settled_;      // of each column, during one search: its distance is final
-  std::vector<int> parent_;           // of each column, during one search: the row before it
+  std::vector<Column> columns_;
   std::vector<int> assigned_column_;  // of each row
   std::size_t budget_;                // columns that searches may still settle
   std::vector<Entry> heap_;
