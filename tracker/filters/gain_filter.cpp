@@ -125,7 +125,7 @@ template <int D>
 bool GainFilter<D>::predict(double dt) {
   const Kinematics<D> next = extrapolated(estimate_, dt);
   AxisCovariance<Axes> covariance = extrapolated(covariance_, dt);
-  if (design_->errors.process_intensity > 0.0) {
+  if (has_process_noise()) {
     covariance += on_all_axes<Axes>(process_noise(design_->errors.process_model, design_->schedule.steady.order,
                                                   design_->errors.process_intensity, dt,
                                                   design_->errors.renewal));
@@ -138,7 +138,7 @@ bool GainFilter<D>::predict(double dt) {
   if (design_->has_belief) carry_belief(dt);
   prior_ = estimate_ = next;
   covariance_ = covariance;
-  noise_ = extrapolated(noise_, dt);
+  if (has_process_noise()) noise_ = extrapolated(noise_, dt);
   residual_.reset();
   interval_ = dt;
   elapsed_ += dt;
@@ -324,7 +324,7 @@ bool GainFilter<D>::correct(const Vector& z, const Axes& variance, const AxisGai
   prior_ = estimate_;
   estimate_ = next;
   covariance_ = covariance;
-  noise_ = corrected(noise_, gain, variance);
+  if (has_process_noise()) noise_ = corrected(noise_, gain, variance);
   residual_ = residual;
   elapsed_ = 0.0;
   misses_ = 0;

@@ -114,9 +114,9 @@ class GainFilter {
   Vector velocity_sigma() const { return covariance_.vv.max(0.0).sqrt().matrix(); }
   /// The part of position_sigma() that measurement errors cause: what is left when the target moves
   /// exactly as the filter assumes.
-  Vector noise_sigma() const { return noise_.xx.max(0.0).sqrt().matrix(); }
+  Vector noise_sigma() const { return noise().xx.max(0.0).sqrt().matrix(); }
   /// The same of velocity_sigma().
-  Vector noise_velocity_sigma() const { return noise_.vv.max(0.0).sqrt().matrix(); }
+  Vector noise_velocity_sigma() const { return noise().vv.max(0.0).sqrt().matrix(); }
   /// Covariance of the residual of a measurement with this error at estimate() [m²].
   Matrix innovation_covariance(const Matrix& measurement) const {
     return measurement + Matrix(covariance_.xx.matrix().asDiagonal());
@@ -142,6 +142,8 @@ class GainFilter {
   Matrix nominal_covariance() const { return design_->errors.sigma * design_->errors.sigma * Matrix::Identity(); }
   Scheduled scheduled() const;
   Scheduled as_scheduled(const AxisGain<Axes>& gain) const;
+  bool has_process_noise() const { return design_->errors.process_intensity > 0.0; }
+  const AxisCovariance<Axes>& noise() const { return has_process_noise() ? noise_ : covariance_; }
   bool is_steady() const { return on_schedule_ && !starting_up_; }
   bool doubts(const Vector& residual, const AxisCovariance<Axes>& belief, const Axes& variance);
   AxisCovariance<Axes> settled_belief() const;
@@ -159,7 +161,7 @@ class GainFilter {
   Kinematics<D> prior_;
   Kinematics<D> estimate_;
   AxisCovariance<Axes> covariance_;
-  AxisCovariance<Axes> noise_;  // the same without process noise
+  AxisCovariance<Axes> noise_;  // the same without process noise, if there is any
   std::optional<Vector> residual_;
   Scheduled used_;
   double interval_;       // time of the last prediction
