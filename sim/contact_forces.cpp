@@ -4,16 +4,19 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
+
+#include "sim/complementarity.hpp"
 
 namespace ghtrack {
 namespace {
 
+constexpr int kFewSweeps = 200;   // that most need, from a good guess
+constexpr int kMostSweeps = 2000;
 constexpr int kPatience = 100;    // sweeps in which the change must halve
 constexpr double kExact = 1e-11;  // of the largest rate
 constexpr int kLeapEvery = 8;     // sweeps
-constexpr std::size_t kMostUnknowns = 100;  // of a leap
+constexpr std::size_t kMostUnknowns = 100;  // of a leap, or of pivoting
 
 /// One touch at work on its bodies.
 class Row {
@@ -97,6 +100,32 @@ class Row {
     added_ = {0.0, 0.0, 0.0};
   }
   void forget() { added_ = {0.0, 0.0, 0.0}; }
+
+  /// One force alone; with a push goes the couple that holds against turning.
+  void apply_alone(Unknown unknown, double amount) {
+    if (unknown == Unknown::kPush) {
+      apply(amount, 0.0, -touch_.direction * most_per_push(Unknown::kCouple) * amount);
+    } else if (unknown == Unknown::kGrip) {
+      apply(0.0, amount, 0.0);
+    } else {
+      apply(0.0, 0.0, amount);
+    }
+  }
+
+  /// The same into the touch alone.
+  void note_alone(Unknown unknown, double amount) {
+    if (unknown == Unknown::kPush) {
+      touch_.push += amount;
+      touch_.couple -= touch_.direction * most_per_push(Unknown::kCouple) * amount;
+    } else {
+      (unknown == Unknown::kGrip ? touch_.grip : touch_.couple) += amount;
+    }
+  }
+
+  /// The largest grip or couple of a push of one.
+  double most_per_push(Unknown unknown) const {
+    return unknown == Unknown::kGrip ? touch_.friction : touch_.rolling * one_.radius;
+  }
 
   /// What a free force holds at zero.
   double residue(Unknown unknown) const {
@@ -233,97 +262,85 @@ void leap(std::vector<Pushed>& bodies, std::vector<Row>& rows) {
   }
 }
 
-/// z ≥ 0 with w = m z + q ≥ 0, z ⟂ w, by Lemke's pivoting (Cottle, Pang & Stone, The Linear
-/// Complementarity Problem, 1992, algorithm 4.4.5).
-/// @param m  row by row
-/// @returns nothing if that ends on a ray
-std::optional<std::vector<double>> solve_complementarity(const std::vector<double>& m,
-                                                         const std::vector<double>& q) {
-  const std::size_t size = q.size();
-  const std::size_t cover = 2 * size;  // column of what lifts all w above zero at first
-  const std::size_t width = 2 * size + 2;
-  std::vector<double> table(size * width, 0.0);  // w − m z − cover = q
-  const auto at = [&](std::size_t row, std::size_t column) -> double& {
-    return table[row * width + column];
+/// One unknown of the problem of complementarity that contacts are.
+struct Column {
+  enum class What {
+    kForce,  // a push, or a grip or couple towards one side
+    kSpeed,  // at which a touch slips or turns on regardless
   };
-  std::vector<std::size_t> basis(size);
-  for (std::size_t row = 0; row < size; ++row) {
-    at(row, row) = 1.0;
-    for (std::size_t k = 0; k < size; ++k) at(row, size + k) = -m[row * size + k];
-    at(row, cover) = -1.0;
-    at(row, width - 1) = q[row];
-    basis[row] = row;
-  }
-  const auto enter = [&](std::size_t pivot, std::size_t column) {
-    const double head = at(pivot, column);
-    for (std::size_t k = 0; k < width; ++k) at(pivot, k) /= head;
-    for (std::size_t row = 0; row < size; ++row) {
-      const double factor = at(row, column);
-      if (row == pivot || factor == 0.0) continue;
-      for (std::size_t k = 0; k < width; ++k) at(row, k) -= factor * at(pivot, k);
-    }
-    return std::exchange(basis[pivot], column);
+  std::size_t touch;
+  What what;
+  Row::Unknown unknown;
+  double sign;  // of the force
+};
+
+/// The unknowns of a touch: its push, towards either side where it holds; the grips that do not
+/// drive its slip on, and its couples; and for each of these pairs what it lets through.
+void append_columns(std::size_t index, const Touch& touch, std::vector<Column>& columns) {
+  using enum Column::What;
+  const auto append = [&](Column::What what, Row::Unknown unknown, double sign) {
+    columns.push_back({index, what, unknown, sign});
   };
-  const std::size_t lowest =
-      static_cast<std::size_t>(std::min_element(q.begin(), q.end()) - q.begin());
-  std::size_t left = cover;
-  if (q[lowest] < 0.0) left = enter(lowest, cover);
-  for (std::size_t step = 0; left != cover; ++step) {
-    const std::size_t entering = left < size ? left + size : left - size;
-    std::size_t best = size;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t row = 0; row < size; ++row) {
-      if (at(row, entering) < 1e-11) continue;
-      const double ratio = at(row, width - 1) / at(row, entering);
-      if (ratio > least || (ratio == least && basis[row] != cover)) continue;
-      least = ratio;
-      best = row;
-    }
-    if (best == size || step > 50 * size) return std::nullopt;
-    left = enter(best, entering);
+  append(kForce, Row::Unknown::kPush, 1.0);
+  if (touch.holds) append(kForce, Row::Unknown::kPush, -1.0);
+  if (touch.friction > 0.0) {
+    if (touch.slip <= 0.0) append(kForce, Row::Unknown::kGrip, 1.0);
+    if (touch.slip >= 0.0) append(kForce, Row::Unknown::kGrip, -1.0);
+    append(kSpeed, Row::Unknown::kGrip, 0.0);
   }
-  std::vector<double> z(size, 0.0);
-  for (std::size_t row = 0; row < size; ++row) {
-    if (basis[row] >= size && basis[row] < cover) z[basis[row] - size] = at(row, width - 1);
+  if (touch.rolling > 0.0 && touch.direction == 0.0) {
+    append(kForce, Row::Unknown::kCouple, 1.0);
+    append(kForce, Row::Unknown::kCouple, -1.0);
+    append(kSpeed, Row::Unknown::kCouple, 0.0);
   }
-  return z;
 }
 
-/// Pushes and grips of impacts: Coulomb's law as a problem of complementarity, which always has an
-/// answer (Stewart & Trinkle 1996). Of each touch there are the push, the grip towards either side
-/// and the speed at which it slips.
-bool guess_impacts(const std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
-  const std::size_t size = 4 * touches.size();
+/// Coulomb's law as a problem of complementarity (Stewart & Trinkle 1996), which pivoting solves
+/// where sweeps do not: where friction draws a body into a wedge that jams, and in heaps where much
+/// is on the verge of slipping.
+/// @returns false, with touches as they were, if there are too many or that ends on a ray
+bool guess_by_pivoting(const std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < touches.size(); ++i) append_columns(i, touches[i], columns);
+  const std::size_t size = columns.size();
   if (size > kMostUnknowns) return false;
   std::vector<Pushed> pushed = bodies;
+  std::vector<Touch> guess = touches;
   std::vector<Row> rows;
-  rows.reserve(touches.size());
-  for (Touch& touch : touches) {
-    touch.push = touch.grip = 0.0;
+  rows.reserve(guess.size());
+  for (Touch& touch : guess) {
+    touch.push = touch.grip = touch.couple = 0.0;
     rows.emplace_back(pushed, touch);
   }
   const auto residues = [&] {
     std::vector<double> result;
-    for (const Row& row : rows) {
-      const double slip = row.residue(Row::Unknown::kGrip);
-      result.insert(result.end(), {row.residue(Row::Unknown::kPush), slip, -slip, 0.0});
+    for (const Column& column : columns) {
+      const bool is_force = column.what == Column::What::kForce;
+      result.push_back(is_force ? column.sign * rows[column.touch].residue(column.unknown) : 0.0);
     }
     return result;
   };
   std::vector<double> q = residues();
   std::vector<double> m(size * size, 0.0);
   for (std::size_t j = 0; j < size; ++j) {
-    const std::size_t touch = j / 4;
-    const std::size_t which = j % 4;
-    if (which == 3) {
-      m[(j - 2) * size + j] = m[(j - 1) * size + j] = 1.0;
-      continue;
+    const Column& cause = columns[j];
+    const bool is_force = cause.what == Column::What::kForce;
+    if (is_force) {
+      std::copy(bodies.begin(), bodies.end(), pushed.begin());
+      rows[cause.touch].apply_alone(cause.unknown, cause.sign);
+      const std::vector<double> then = residues();
+      for (std::size_t i = 0; i < size; ++i) m[i * size + j] = then[i] - q[i];
     }
-    std::copy(bodies.begin(), bodies.end(), pushed.begin());
-    rows[touch].apply(which == 0 ? 1.0 : 0.0, which == 0 ? 0.0 : which == 1 ? 1.0 : -1.0, 0.0);
-    const std::vector<double> then = residues();
-    for (std::size_t i = 0; i < size; ++i) m[i * size + j] = then[i] - q[i];
-    m[(4 * touch + 3) * size + j] = which == 0 ? touches[touch].friction : -1.0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Column& effect = columns[i];
+      if (effect.touch != cause.touch || effect.what == cause.what) continue;
+      const bool same = effect.unknown == cause.unknown;
+      if (!is_force && same) m[i * size + j] = 1.0;
+      if (is_force && same) m[i * size + j] = -1.0;
+      if (is_force && cause.unknown == Row::Unknown::kPush) {
+        m[i * size + j] = cause.sign * rows[cause.touch].most_per_push(effect.unknown);
+      }
+    }
   }
   // Where several pivots would do the same they would go round in circles.
   double largest = 0.0;
@@ -331,28 +348,18 @@ bool guess_impacts(const std::vector<Pushed>& bodies, std::vector<Touch>& touche
   for (std::size_t i = 0; i < size; ++i) q[i] += 1e-11 * largest * static_cast<double>(i + 1);
   const auto z = solve_complementarity(m, q);
   if (!z) return false;
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    touches[i].push = (*z)[4 * i];
-    touches[i].grip = (*z)[4 * i + 1] - (*z)[4 * i + 2];
+  for (std::size_t i = 0; i < size; ++i) {
+    const Column& column = columns[i];
+    if (column.what != Column::What::kForce) continue;
+    rows[column.touch].note_alone(column.unknown, column.sign * (*z)[i]);
   }
+  touches = std::move(guess);
   return true;
 }
 
-}  // namespace
-
-void solve_impacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
-  constexpr int kMostSweeps = 2000;
-  const std::vector<Pushed> before = bodies;
-  const std::vector<Touch> untouched = touches;
-  if (solve_contacts(bodies, touches, kMostSweeps)) return;
-  std::vector<Touch> guess = untouched;
-  if (!guess_impacts(before, guess)) return;
-  bodies = before;
-  touches = std::move(guess);
-  solve_contacts(bodies, touches, kMostSweeps);
-}
-
-bool solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps) {
+/// Projected Gauss–Seidel iteration from the touches' first guesses, with leaps.
+/// @returns whether nothing changes any more
+bool sweep_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps) {
   double largest = 1e-300;
   for (const Pushed& body : bodies) {
     largest = std::max({largest, body.rate.norm(), std::abs(body.spin_rate) * body.radius});
@@ -394,6 +401,19 @@ bool solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, in
     earlier = change;
   }
   return false;
+}
+
+}  // namespace
+
+void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
+  const std::vector<Pushed> before = bodies;
+  const std::vector<Touch> first_guess = touches;
+  if (sweep_contacts(bodies, touches, kFewSweeps)) return;
+  std::vector<Touch> guess = first_guess;
+  const bool has_guess = guess_by_pivoting(before, guess);
+  bodies = before;
+  touches = has_guess ? guess : first_guess;
+  sweep_contacts(bodies, touches, has_guess ? kFewSweeps : kMostSweeps);
 }
 
 }  // namespace ghtrack

@@ -56,14 +56,11 @@ inline Vec2 tangent_to(const Vec2& normal) { return {normal.y(), -normal.x()}; }
 /// than rounding, or so many sweeps were made. Sweeps alone need about n² for a column of n bodies,
 /// and as many as the ratio of masses for a light body between heavy ones; so the linear equations
 /// of what touches, sticks and slides are solved now and then, and sweeps tell whether that is the
-/// answer (Silcowitz, Niebe & Erleben 2010). The bodies' rates are those with these forces
-/// afterwards.
-/// @returns whether that is the answer: there may be none to forces, and sweeps may not find it
-bool solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, int most_sweeps);
-
-/// The same for impulses without couples, to which there is always an answer. Sweeps do not find it
-/// where friction draws a body into a wedge that jams: a hundred times the impulse that it takes to
-/// stop the approach then stops the slip at once.
-void solve_impacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches);
+/// answer (Silcowitz, Niebe & Erleben 2010). Where they do not find it, as where friction draws a
+/// body into a wedge that jams (a hundred times the impulse that it takes to stop the approach then
+/// stops the slip at once), pivoting does. To impulses there is always an answer; to the forces on
+/// what slips there may be none, and then these are what the sweeps have come to. The bodies' rates
+/// are those with these forces afterwards.
+void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches);
 
 }  // namespace ghtrack

@@ -24,8 +24,6 @@ constexpr double kHeld = 1e-6;       // a smaller acceleration is a rounding err
 constexpr double kLongestTogether = 1.0 / 240.0;  // step of bodies that are pressed together [s]
 constexpr double kShortestStep = 1e-6;            // where hits follow each other without end [s]
 constexpr int kMostSamples = 2000;                // of a step, in the search for the first touch
-constexpr int kForceSweeps = 200;     // of solve_contacts(), where the last answer is a guess
-constexpr int kImpulseSweeps = 2000;  // and where there is none
 constexpr int kMostReturns = 8;       // of two to each other in a step; then they stay together
 constexpr int kMostHits = 100;        // of each body in a step; then nothing bounces any more
 constexpr int kMostSteps = 200;       // from hit to hit, the same; then hits are passed over
@@ -419,7 +417,7 @@ class Encounter {
       }
       if (bouncing) touch.normal_offset += restitution_of(pair) * parting(now, pair, there);
     }
-    solve_impacts(pushed, heap.touches);
+    solve_contacts(pushed, heap.touches);
     std::vector<FlightState> after = before;
     for (std::size_t i = 0; i < before.size(); ++i) {
       after[i].velocity = pushed[i].rate;
@@ -587,7 +585,7 @@ class Encounter {
       touch.slip_offset = slip / kSlipDecay - tangent.dot(there.acceleration);
       touch.slip = std::abs(slip) > kCreep ? slip : 0.0;
     }
-    solve_contacts(pushed, heap.touches, kForceSweeps);
+    solve_contacts(pushed, heap.touches);
     std::vector<FlightRate> result;
     for (const Pushed& body : pushed) result.push_back({body.rate, body.spin_rate});
     return result;
@@ -655,6 +653,7 @@ class Encounter {
     const std::vector<FlightRate> k1 = rates(before, heap, start.time, start.passing);
     if (stays_at_rest(before, k1, heap) &&
         stays_at_rest(before, rates(before, heap, end.time, end.passing), heap)) {
+      for (const int body : heap.bodies) flight(end, body)->angle += step * flight(end, body)->spin;
       return heap;
     }
     const std::vector<FlightState> s2 = moved(before, k1, 0.5 * step);
@@ -693,15 +692,17 @@ class Encounter {
     return heap;
   }
 
+  /// Whether the forces on a body are none, but for rounding.
+  bool is_held(int body, const FlightRate& rate) const {
+    return rate.acceleration.norm() <= kHeld &&
+           std::abs(rate.spin) * bodies_[at(body)].radius <= kHeld;
+  }
+
   /// Whether bodies that stand are held where they are.
   bool stays_at_rest(const std::vector<FlightState>& states, const std::vector<FlightRate>& rates,
                      const Heap& heap) const {
     for (std::size_t i = 0; i < states.size(); ++i) {
-      const double radius = bodies_[at(heap.bodies[i])].radius;
-      if (states[i].velocity != Vec2::Zero() || states[i].spin != 0.0 ||
-          rates[i].acceleration.norm() > kHeld || std::abs(rates[i].spin) * radius > kHeld) {
-        return false;
-      }
+      if (states[i].velocity != Vec2::Zero() || !is_held(heap.bodies[i], rates[i])) return false;
     }
     return true;
   }
@@ -744,7 +745,7 @@ class Encounter {
         worst = std::max(worst, touch.holds ? std::abs(there.distance) : -there.distance);
       }
       if (worst < kExact) break;
-      solve_contacts(pushed, touches, kForceSweeps);
+      solve_contacts(pushed, touches);
       for (std::size_t i = 0; i < states.size(); ++i) states[i].position += pushed[i].rate;
     }
   }
@@ -766,7 +767,7 @@ class Encounter {
       touch.holds = heap.touches[i].push > 0.0;
       if (pair.kind != Partner::kRound) touch.normal_offset = -there.normal.dot(there.velocity);
     }
-    solve_contacts(pushed, touches, kImpulseSweeps);
+    solve_contacts(pushed, touches);
     for (std::size_t i = 0; i < states.size(); ++i) states[i].velocity = pushed[i].rate;
   }
 
@@ -795,14 +796,11 @@ class Encounter {
       FlightState& state = *flight(now, heap.bodies[i]);
       state.leans = true;
       state.leaning_acceleration = rate[i].acceleration;
-      const double radius = bodies_[at(heap.bodies[i])].radius;
-      if (state.velocity.norm() > kAtRest || rate[i].acceleration.norm() > kHeld ||
-          std::abs(state.spin) * radius > kAtRest || std::abs(rate[i].spin) * radius > kHeld) {
-        continue;
-      }
+      if (state.velocity.norm() > kAtRest || !is_held(heap.bodies[i], rate[i])) continue;
       state.velocity.setZero();
-      state.spin = 0.0;
       state.leaning_acceleration.setZero();
+      // Where nothing is rough it may spin on.
+      if (std::abs(state.spin) * bodies_[at(heap.bodies[i])].radius <= kAtRest) state.spin = 0.0;
     }
   }
 

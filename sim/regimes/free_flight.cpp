@@ -61,8 +61,7 @@ Cornered corner(const FlightState& state, const FlightRate& free, const RoundBod
   for (const int index : {state.support, state.second_support}) {
     result.touches.push_back(touch_of(state, body, surface_at(surfaces, index), turning));
   }
-  constexpr int kMostSweeps = 200;
-  solve_contacts(one, result.touches, kMostSweeps);
+  solve_contacts(one, result.touches);
   result.rate = {one[0].rate, one[0].spin_rate};
   // Held from two sides it goes nowhere, not even by a rounding error.
   const bool held = std::all_of(result.touches.begin(), result.touches.end(),
@@ -227,16 +226,16 @@ bool settle_on_supports(FlightState& state, const RoundBody& body,
   return changes;
 }
 
-bool is_nearly_at_rest(const FlightState& state, const RoundBody& body) {
-  return std::abs(state.spin) * body.radius < kAtRest && state.velocity.norm() < kAtRest;
-}
+bool is_nearly_at_rest(const FlightState& state) { return state.velocity.norm() < kAtRest; }
 
 void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
           const std::vector<Surface>& surfaces) {
   FlightState still = state;
   still.velocity.setZero();
-  still.spin = 0.0;
-  const FlightRate rate = supported_rate(still, free, body, surfaces, 0.0);
+  // Where nothing is rough it may spin on.
+  if (std::abs(state.spin) * body.radius < kAtRest) still.spin = 0.0;
+  const double turning = portable::sign(still.spin);
+  const FlightRate rate = supported_rate(still, free, body, surfaces, turning);
   const double most = 1e-9;  // [m/s²]
   if (rate.acceleration.norm() < most && std::abs(rate.spin) * body.radius < most) state = still;
 }
@@ -288,7 +287,7 @@ Vec2 strike(FlightState& state, const RoundBody& body, const std::vector<Surface
     touch.normal_offset =
         surface.restitution.value_or(body.restitution) * state.velocity.dot(touch.normal);
   }
-  solve_impacts(one, touches);
+  solve_contacts(one, touches);
   const FlightState before = state;
   state.velocity = one[0].rate;
   state.spin = one[0].spin_rate;
@@ -443,6 +442,7 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
       return false;
     };
     const bool is_wall = surfaces[i].shape == Surface::Shape::kWall;
+    const bool is_bent = surfaces[i].shape != Surface::Shape::kGround;
     const int samples = is_wall ? wall_samples : kGroundSamples;
     double clear = 0.0;
     bool closes = false;  // at `clear`
@@ -457,8 +457,9 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
         consider({static_cast<int>(i), clear, f});
         break;
       }
-      // Between two samples it may have grazed an end.
-      if (closes && parting >= 0.0 && is_wall && contact.distance - body.radius < reach / samples) {
+      // Between two samples, or at this one, it may have grazed an end or a crest.
+      if (closes && parting >= -kRounding && is_bent &&
+          contact.distance - body.radius < reach / samples) {
         double towards = clear;
         double nearest = f;
         while (nearest - towards > 1e-12) {

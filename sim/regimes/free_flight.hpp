@@ -71,8 +71,9 @@ void leave_supports(FlightState& state, const FlightRate& free, const RoundBody&
 bool settle_on_supports(FlightState& state, const RoundBody& body,
                         const std::vector<Surface>& surfaces, double turning);
 
-/// Whether a supported body hardly moves; `rest` then brings it to a stand if the forces let it.
-bool is_nearly_at_rest(const FlightState& state, const RoundBody& body);
+/// Whether a supported body hardly moves; `rest` then brings it to a stand if the forces let it,
+/// though it may go on to spin.
+bool is_nearly_at_rest(const FlightState& state);
 void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
           const std::vector<Surface>& surfaces);
 
@@ -264,7 +265,7 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
       if (state.support >= 0 && settle_on_supports(state, body, surfaces, turning)) {
         keep_energy(before, state, rates(before, began), rates(state, time), body);
       }
-      if (state.support >= 0 && is_nearly_at_rest(state, body)) {
+      if (state.support >= 0 && is_nearly_at_rest(state)) {
         rest(state, rates(state, time), body, surfaces);
       }
       continue;

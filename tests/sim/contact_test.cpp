@@ -288,7 +288,7 @@ TEST(Contact, JamsWhatFrictionDrawsIntoAWedge) {
     return sum;
   };
   const double begun = energy();
-  solve_impacts(bodies, touches);
+  solve_contacts(bodies, touches);
   EXPECT_LT(energy(), begun);
   for (const Touch& touch : touches) {
     const Pushed& one = bodies[static_cast<std::size_t>(touch.one)];
@@ -299,6 +299,48 @@ TEST(Contact, JamsWhatFrictionDrawsIntoAWedge) {
                 0.0, 1e-9);
     EXPECT_GT(touch.push, 1.0);
     EXPECT_LE(std::abs(touch.grip), touch.friction * touch.push);
+  }
+}
+
+// Derived: a smooth elastic ball that meets the end of a wall, by the offset b from its centre's path,
+// turns by 180° − 2 asin(b / r), though it is closest at the very end of a step.
+TEST(Contact, GrazesTheEndOfAWallAtTheEndOfAStep) {
+  for (const double offset : {0.05, 0.0999, 0.09999999}) {
+    for (const double speed : {1.0, 10.0, 100.0}) {
+      WorldConfig config =
+          in_empty_space({target_of(billiard_ball(Vec2(-1.0, 1.0 + offset), Vec2(speed, 0.0)))});
+      config.environment.walls = {Wall{Vec2(0.0, -2.0), Vec2(0.0, 1.0)}};
+      const double sine = offset / 0.1;
+      const Vec2 normal(-std::sqrt(1.0 - sine * sine), sine);
+      const Vec2 expected = Vec2(speed, 0.0) - 2.0 * speed * normal.x() * normal;
+      World world(config, 1);
+      const Vec2 velocity = state_at(world, 2.0 / speed).velocity;
+      EXPECT_LT((velocity - expected).norm(), 1e-5 * speed) << offset << ' ' << speed;
+    }
+  }
+}
+
+// Property: smooth balls that lie in a valley or on each other rest, exactly, while they spin on.
+TEST(Contact, RestsWhileItSpinsWhereNothingIsRough) {
+  for (const int count : {1, 3}) {
+    std::vector<Target> targets;
+    for (int i = 0; i < count; ++i) {
+      ThrownBall ball = billiard_ball(Vec2(0.0, 0.1 * std::sqrt(2.0) + 0.2 * i), Vec2::Zero());
+      ball.restitution = 0.0;
+      ball.spin = 10.0;
+      targets.push_back(target_of(ball));
+    }
+    WorldConfig config = world_of(targets);
+    config.environment.air.density = 0.0;
+    config.environment.walls = {Wall{Vec2(-3.0, 3.0), Vec2(0.0, 0.0)},
+                                Wall{Vec2(0.0, 0.0), Vec2(3.0, 3.0)}};
+    World world(config, 1);
+    const TruthSnapshot truth = world.sample(5.0);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      EXPECT_EQ(truth.objects[i].velocity, Vec2::Zero()) << count;
+      EXPECT_EQ(truth.objects[i].acceleration, Vec2::Zero()) << count;
+      EXPECT_NEAR(truth.bodies[i].spin, 10.0, 1e-12) << count;
+    }
   }
 }
 
@@ -444,17 +486,17 @@ TEST(Contact, FollowsABallThatRattlesInAGap) {
 }
 
 // Property: without wind and motors the energy of balls between walls, ramps, valleys and each
-// other never grows, nobody sinks into anything by a micrometre, who stands still has no
+// other never grows, nobody sinks into anything by a micrometre, who rests has neither velocity nor
 // acceleration, and who has none touches something. The program energy_worlds tries as many as one
 // likes.
 TEST(Contact, NeverGainsEnergy) {
-  std::vector<std::uint64_t> seeds{2000002, 2000135, 2000456, 2000457};  // failed once
+  std::vector<std::uint64_t> seeds{2000002, 2000135, 2000456, 2000457, 7000108};  // failed once
   for (std::uint64_t seed = 0; seed < 24; ++seed) seeds.push_back(seed);
   for (const std::uint64_t seed : seeds) {
     const EnergyRun run = run_energy_world(seed);
     EXPECT_LT(run.most_gained, 1e-9 * run.begun) << seed;
     EXPECT_GT(run.lowest, -1e-8) << seed;
-    EXPECT_LT(run.most_unrest, 1e-4) << seed;
+    EXPECT_LT(run.most_unrest, kAtRest) << seed;
     EXPECT_EQ(run.afloat, 0) << seed;
   }
 }
@@ -465,7 +507,7 @@ TEST(Contact, LeavesACornerThatHasJustBeenHit) {
   const EnergyRun run = run_energy_world(2000694);
   EXPECT_LT(run.most_gained, 1e-9 * run.begun);
   EXPECT_GT(run.lowest, -1e-6);
-  EXPECT_LT(run.most_unrest, 1e-4);
+  EXPECT_LT(run.most_unrest, kAtRest);
   EXPECT_EQ(run.afloat, 0);
 }
 

@@ -105,12 +105,55 @@ WorldConfig energy_world(std::uint64_t seed) {
 
 namespace {
 
+double radius_of(const WorldConfig& config, std::size_t ball) {
+  return std::get<ThrownBall>(config.targets[ball].motion).radius;
+}
+
+/// Of the balls that touch each other: for each the first of those that hang together with it.
+std::vector<std::size_t> heaps(const WorldConfig& config, const TruthSnapshot& truth) {
+  constexpr double kTouching = 1e-6;  // [m]
+  std::vector<std::size_t> first(truth.objects.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    first[i] = i;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double apart = (truth.objects[i].position - truth.objects[j].position).norm();
+      if (apart > radius_of(config, i) + radius_of(config, j) + kTouching) continue;
+      const std::size_t least = std::min(first[i], first[j]);
+      const std::size_t most = std::max(first[i], first[j]);
+      std::replace(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(i) + 1, most, least);
+    }
+  }
+  return first;
+}
+
+/// The largest velocity [m/s] or acceleration [m/s²] of a ball that rests: that stays where it is
+/// from the sample before to the one after with all that it hangs together with. A ball at the top
+/// of its hop, or one that another is about to push, is so slow at one sample only.
+double unrest(const WorldConfig& config, const TruthSnapshot& before, const TruthSnapshot& now,
+              const TruthSnapshot& after) {
+  constexpr double kStill = 1e-9;  // [m]
+  const std::vector<std::size_t> heap = heaps(config, now);
+  const std::size_t count = now.objects.size();
+  if (before.objects.size() != count || after.objects.size() != count) return 0.0;
+  std::vector<bool> stands(count, true);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec2& here = now.objects[k].position;
+    const bool moves = (here - before.objects[k].position).norm() > kStill ||
+                       (here - after.objects[k].position).norm() > kStill;
+    if (moves) stands[heap[k]] = false;
+  }
+  double most = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const TruthState& state = now.objects[k];
+    if (stands[heap[k]]) most = std::max({most, state.velocity.norm(), state.acceleration.norm()});
+  }
+  return most;
+}
+
 /// The least gap between a ball and all else [m].
 double gap_around(const WorldConfig& config, const Environment& environment,
                   const TruthSnapshot& truth, std::size_t k) {
-  const auto radius = [&](std::size_t i) {
-    return std::get<ThrownBall>(config.targets[i].motion).radius;
-  };
+  const auto radius = [&](std::size_t i) { return radius_of(config, i); };
   const Vec2& position = truth.objects[k].position;
   double least = 1e9;
   for (const Surface& surface : environment.surfaces()) {
@@ -132,9 +175,9 @@ EnergyRun run_energy_world(std::uint64_t seed) {
   World world(config, seed);
   EnergyRun result;
   double least = 0.0;
-  std::vector<Vec2> stands;  // where each was at the sample before
+  std::vector<TruthSnapshot> samples;
   for (int i = 0; i <= 120; ++i) {
-    const TruthSnapshot truth = world.sample(0.05 * i);
+    const TruthSnapshot& truth = samples.emplace_back(world.sample(0.05 * i));
     double energy = 0.0;
     for (std::size_t k = 0; k < truth.objects.size(); ++k) {
       const auto& ball = std::get<ThrownBall>(config.targets[k].motion);
@@ -144,16 +187,15 @@ EnergyRun run_energy_world(std::uint64_t seed) {
                              0.5 * state.velocity.squaredNorm() + 0.5 * ball.inertia * rim * rim);
       const double gap = gap_around(config, world.environment(), truth, k);
       result.lowest = std::min(result.lowest, gap);
-      // A ball at the top of its flight is so slow at one sample only.
-      const bool stood = k < stands.size() && (stands[k] - state.position).norm() < 1e-9;
-      if (stood) result.most_unrest = std::max(result.most_unrest, state.acceleration.norm());
       if (state.acceleration == Vec2::Zero() && gap > 1e-8) ++result.afloat;
     }
-    stands.clear();
-    for (const TruthState& state : truth.objects) stands.push_back(state.position);
     if (i == 0) result.begun = least = energy;
     result.most_gained = std::max(result.most_gained, energy - least);
     least = std::min(least, energy);
+  }
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+    const double now = unrest(config, samples[i - 1], samples[i], samples[i + 1]);
+    result.most_unrest = std::max(result.most_unrest, now);
   }
   result.collisions_missed = world.missed_collisions();
   result.cpu_time = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;

@@ -1,6 +1,6 @@
 // energy_worlds [N [FIRST]]: runs N random worlds of balls (10 000 unless told) from seed FIRST on
-// for six seconds each, and tells in which energy grew, something sank into something else, stood
-// still with an acceleration, or rested on nothing. The suite runs the first few.
+// for six seconds each, and tells in which energy grew, something sank into something else, rested
+// with a velocity or an acceleration, or on nothing. The suite runs the first few.
 
 #include <algorithm>
 #include <cstdint>
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
       most = std::max(most, gained);
       lowest = std::min(lowest, run.lowest);
       missed += run.collisions_missed;
-      const bool rests = run.most_unrest < 1e-4 && run.afloat == 0;
+      const bool rests = run.most_unrest < ghtrack::kAtRest && run.afloat == 0;
       if (gained < 1e-7 && run.lowest > -1e-6 && rests) continue;
       std::printf("seed %ju: gained %.2e of its energy, lowest gap %.2e m, missed %ld, unrest %.2e "
                   "m/s², %d afloat\n",
