@@ -35,6 +35,7 @@ struct DesignedStep {
 struct TrackEstimate {
   int id = 0;  // counts from 1 in the order of birth, or where existence is weighed of
                // confirmation, until which it is negative; never used twice
+  std::optional<int> tentative_id;  // the negative one, once it is confirmed, too
   TrackStatus status = TrackStatus::kTentative;
   std::optional<double> existence;  // probability that there is a target; absent: it is not weighed
   std::string filter;               // name of the filter that leads, such as "gh"

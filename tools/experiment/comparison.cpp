@@ -10,6 +10,7 @@
 #include "tools/experiment/analysis.hpp"
 #include "tools/experiment/parallel.hpp"
 #include "tools/experiment/trial.hpp"
+#include "tools/metrics/expected_error.hpp"
 #include "tracker/filters/gains/rules.hpp"
 
 namespace ghtrack {
@@ -104,18 +105,32 @@ class CellReduction {
 
   /// By the filter's closed forms, if they cover all the runs that have the metric. Where shadows
   /// tell, a few of them may make most of the mean, so that it is known less well than by measuring:
-  /// then it is not known.
+  /// then it is not known. Where nothing but which detections are missed makes runs differ, it is.
   void predict(std::size_t subject, ComparisonRow& row) const {
     const SampleMean mean =
         mean_of(values_.at(layout_.predicted(row.filter, subject, row.metric)),
                 info(row.metric).average);
     if (mean.values != row.runs) return;
-    if (mean.has_heavy_tails && mean.ci95 && row.ci95 &&
+    if (shadows_tell(row) && mean.has_heavy_tails && mean.ci95 && row.ci95 &&
         mean.ci95->high - mean.ci95->low > row.ci95->high - row.ci95->low) {
       return;
     }
     row.predicted = mean.mean;
     row.predicted_ci95 = mean.ci95;
+  }
+
+  bool shadows_tell(const ComparisonRow& row) const {
+    const auto& sensors = trial_.scene().sensors;
+    const auto& regimes = trial_.regimes();
+    const bool is_normal_noise =
+        std::all_of(sensors.begin(), sensors.end(), [](const SensorConfig& sensor) {
+          return is_normal(sensor, error_parts(sensor).value_or(std::vector<ErrorPart>{}));
+        });
+    if (row.metric == Metric::kMai && !is_normal_noise) return true;
+    return std::any_of(regimes.begin(), regimes.end(), [&](const std::string& regime) {
+      if (!row.regime.empty() && row.regime != regime) return false;
+      return !has_own_gains(trial_.design(row.filter).filter_for(regime, 0));
+    });
   }
 
   bool may_be_ruined() const {

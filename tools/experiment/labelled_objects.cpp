@@ -126,7 +126,7 @@ SquaredErrors expected_errors(const Filter& filter, const LabelledObject& object
     if (error) {
       error->advance(scan.truth, scan.time, used);
     } else if (used) {
-      error.emplace(filter, scan.truth, *used, scan.time, 0);
+      error.emplace(filter, scan.truth, *used, scan.time, 0, ExpectedError::Noise::kNormal);
     }
   };
   visit_judged(object, advance, [&](const ObjectScan& scan) {

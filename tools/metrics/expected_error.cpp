@@ -47,16 +47,19 @@ void correct(Matrix6& p, const Gain& gain, const Eigen::Matrix2d& r) {
   p += (gain * s) * gain.transpose();
 }
 
-double mean_factor(std::span<const ErrorPart> errors) {
-  double sum = 0.0;
-  for (const ErrorPart& part : errors) sum += part.probability * part.variance_factor;
-  return sum;
+/// What the sensor would measure at a place, with the accuracy of the detection.
+std::optional<ExpectedMeasurement> shown(const SensedDetection& used, const Vec2& place) {
+  return expected_measurement(used.sensor, used.errors, place, used.detection);
 }
 
-/// What the sensor would measure on average at a place, with the accuracy of the detection.
-std::optional<Detection> shown(const SensedDetection& used, const Vec2& place) {
+/// The same without any noise, and not rounded.
+std::optional<Detection> noiseless(const SensedDetection& used, const Vec2& place) {
   std::optional<Detection> detection = noiseless_detection(used.sensor, place);
-  if (detection) detection->covariance = used.detection.covariance;
+  if (!detection) return std::nullopt;
+  detection->covariance = used.detection.covariance;
+  if (detection->measured && used.detection.measured) {
+    detection->measured->r = used.detection.measured->r;
+  }
   return detection;
 }
 
@@ -81,18 +84,17 @@ std::optional<Detection> noisy(const SensedDetection& used, const Vec2& place, S
       used.sensor.model);
 }
 
-bool has_heavy_tails(const SensedDetection& used) { return used.errors.size() > 1; }
-
-/// Whether gains depend on times and accuracies alone, but for a limit.
-bool has_own_gains(const MotionFilter& filter) {
-  return std::holds_alternative<PolynomialMotion>(filter.motion());
+/// Whether answers depend on the noise but by a limit.
+bool learns_from_noise(const MotionFilter& filter) {
+  return !std::holds_alternative<PolynomialMotion>(filter.motion());
 }
-bool has_own_gains(const MultipleModelFilter&) { return false; }
-bool has_own_gains(const ImmFilter&) { return false; }
-bool has_own_gains(const auto&) { return true; }
+bool learns_from_noise(const MultipleModelFilter&) { return true; }
+bool learns_from_noise(const ImmFilter&) { return true; }
+bool learns_from_noise(const auto&) { return false; }
 
 /// Whether a filter that has settled answers a residual of 100 sigma by less than in proportion.
-bool has_limit(Filter filter, double sigma) {
+bool has_limit(Filter filter) {
+  const double sigma = std::visit([](const auto& f) { return f.sigma(); }, filter);
   const Eigen::Matrix2d accuracy = sigma * sigma * Eigen::Matrix2d::Identity();
   constexpr double kInterval = 1.0;  // any will do [s]
   start(filter, Vec2::Zero(), accuracy);
@@ -117,22 +119,23 @@ std::uint64_t step_of(int updates, std::size_t shadow) {
 }  // namespace
 
 ExpectedError::ExpectedError(const Filter& fresh, const TruthState& truth,
-                             const SensedDetection& first, double time, std::uint64_t key)
+                             const SensedDetection& first, double time, std::uint64_t key,
+                             Noise noise)
     : time_(time),
       filter_(fresh),
-      is_linear_(std::visit([](const auto& f) { return has_own_gains(f); }, fresh) &&
-                 !has_limit(fresh, std::sqrt(0.5 * first.detection.covariance.trace()))),
-      shadows_(is_linear_ && !has_heavy_tails(first) ? 0 : kShadows, fresh),
+      is_linear_(has_own_gains(fresh)),
+      shadows_(is_linear_ && noise == Noise::kNormal ? 0 : kShadows, fresh),
       key_(key) {
-  const std::optional<Detection> mean = shown(first, truth.position);
-  is_known_ = mean && !first.errors.empty();
+  const std::optional<ExpectedMeasurement> seen = shown(first, truth.position);
+  is_known_ = seen && !first.errors.empty();
   if (!is_known_) return;
-  start(filter_, mean->position, mean->covariance);
-  covariance_.topLeftCorner<2, 2>() = mean_factor(first.errors) * first.detection.covariance;
+  const Detection& mean = seen->mean;
+  start(filter_, mean.position, mean.covariance);
+  covariance_.topLeftCorner<2, 2>() = seen->covariance;
   echoes_(0, 0) = covariance_(0, 0);
   for (std::size_t i = 0; i < shadows_.size(); ++i) {
     Stream stream(0, Purpose::kResampling, key_, step_of(0, i));
-    const Detection detection = noisy(first, truth.position, stream).value_or(*mean);
+    const Detection detection = noisy(first, truth.position, stream).value_or(mean);
     start(shadows_[i], detection.position, detection.covariance);
   }
 }
@@ -165,8 +168,8 @@ void ExpectedError::advance(const TruthState& truth, double time,
 
 /// The gain is how the answer changes with the measurement; one that is expected changes nothing.
 void ExpectedError::update(const TruthState& truth, const SensedDetection& used) {
-  const std::optional<Detection> mean = shown(used, truth.position);
-  is_known_ = mean && !used.errors.empty();
+  const std::optional<ExpectedMeasurement> seen = shown(used, truth.position);
+  is_known_ = seen && !used.errors.empty();
   if (!is_known_) return;
   const Vec2 predicted = estimate(filter_).position;
   const Eigen::Matrix2d& told = used.detection.covariance;
@@ -186,26 +189,24 @@ void ExpectedError::update(const TruthState& truth, const SensedDetection& used)
   } else if (!used.detection.measured) {
     gain << answer_to(beside({step, 0.0})) / step, answer_to(beside({0.0, step})) / step;
   } else {
-    const auto here = shown(used, predicted);
-    const auto right = shown(used, predicted + Vec2(step, 0.0));
-    const auto above = shown(used, predicted + Vec2(0.0, step));
+    const auto here = noiseless(used, predicted);
+    const auto right = noiseless(used, predicted + Vec2(step, 0.0));
+    const auto above = noiseless(used, predicted + Vec2(0.0, step));
     is_known_ = here && right && above;
     if (!is_known_) return;
     const Vector6 still = answer_to(*here);  // no zero where the sensor has a bias
     gain << (answer_to(*right) - still) / step, (answer_to(*above) - still) / step;
   }
   const Eigen::Matrix2d position = covariance_.topLeftCorner<2, 2>();
-  const Eigen::Matrix2d noise = mean_factor(used.errors) * told;
+  const Eigen::Matrix2d& noise = seen->covariance;
   const Eigen::Matrix2d s = position + noise;
-  const Vec2 residual = mean->position - predicted;
-  // Else shadows tell: what a filter has let through of errors with heavy tails is not normal.
-  const double length = has_heavy_tails(used) ? 0.0 : expected_length(residual, s);
+  const Vec2 residual = seen->mean.position - predicted;
   innovation_ = {.mean = residual,
                  .covariance = s,
-                 .length = length,
+                 .length = shadows_.empty() ? expected_length(residual, s) : 0.0,  // they tell
                  .memory = 1.0 + residual_echoes_(0, 0) / s(0, 0)};
   const Vector6 left = (covariance_.leftCols<2>() - gain * s).col(0) / std::sqrt(s(0, 0));
-  ghtrack::update(filter_, *mean);
+  ghtrack::update(filter_, seen->mean);
   correct(covariance_, gain, noise);
   correct(echoes_, gain, Eigen::Matrix2d::Zero());
   correct(residual_echoes_, gain, Eigen::Matrix2d::Zero());
@@ -228,10 +229,10 @@ void ExpectedError::update_shadows(const TruthState& truth, const SensedDetectio
     ghtrack::update(shadows_[i], *detection);
   }
   seen.covariance = squares - seen.mean * seen.mean.transpose();
-  if (!is_linear_) {
-    innovation_ = seen;
-  } else if (has_heavy_tails(used)) {
+  if (is_linear_) {
     innovation_->length = seen.length;
+  } else {
+    innovation_ = seen;
   }
 }
 
@@ -264,6 +265,11 @@ ExpectedError::Value ExpectedError::value_of_shadows(const TruthState& truth) co
   value.velocity_variance -= value.velocity.squaredNorm();
   value.shadows = squares;
   return value;
+}
+
+bool has_own_gains(const Filter& filter) {
+  return !std::visit([](const auto& f) { return learns_from_noise(f); }, filter) &&
+         !has_limit(filter);
 }
 
 double expected_length(const Vec2& mean, const Eigen::Matrix2d& covariance) {

@@ -35,6 +35,10 @@ struct SensedDetection {
 /// heavy tails.
 class ExpectedError {
  public:
+  /// Where the errors of some sensor are not normal, only shadows know the length of residuals, also
+  /// of those of other sensors, as the prediction is not normal either.
+  enum class Noise { kNormal, kOther };
+
   using Vector6 = Eigen::Matrix<double, 6, 1>;  // position, velocity, acceleration on x and y
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Gain = Eigen::Matrix<double, 6, 2>;     // K: what a residual adds to each
@@ -42,8 +46,9 @@ class ExpectedError {
 
   /// @param fresh  waits for its first measurement, which is this one
   /// @param key    of the noise that shadows are shown
+  /// @param noise  of all sensors that the filter may hear of
   ExpectedError(const Filter& fresh, const TruthState& truth, const SensedDetection& first,
-                double time, std::uint64_t key);
+                double time, std::uint64_t key, Noise noise);
 
   /// Goes on to the next scan.
   /// @param used  the detection that the filter used; nothing for none
@@ -100,6 +105,10 @@ class ExpectedError {
   std::vector<Filter> shadows_;  // shown noise; none where they are not needed
   std::uint64_t key_;
 };
+
+/// Whether the gains of a filter depend on times and accuracies alone, so that what is expected of it
+/// is exact; else shadows tell.
+bool has_own_gains(const Filter& filter);
 
 /// E|r| of a normally distributed vector in the plane, by
 ///   |r| = ∫₀^∞ (1 − e^(−t r²)) t^(−3/2) dt / (2 √π),  E e^(−t r²) = e^(−t m² / (1 + 2 t s²)) / √(1 + 2 t s²)

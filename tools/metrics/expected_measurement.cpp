@@ -11,15 +11,86 @@
 namespace ghtrack {
 namespace {
 
-/// A position from range and bearing is unbiased over the noise of the bearing, which shortens it by
-/// the factor λ = e^(−σ²/2); without that noise it is 1 / λ too long.
-Vec2 averaged(const Radar& radar, const Vec2& site, const Vec2& position) {
-  const double sigma = radar.noise().bearing;
-  return site + portable::exp(-0.5 * sigma * sigma) * (position - site);
+double mean_factor(std::span<const ErrorPart> errors) {
+  double sum = 0.0;
+  for (const ErrorPart& part : errors) sum += part.probability * part.variance_factor;
+  return sum;
 }
-Vec2 averaged(const auto&, const Vec2&, const Vec2& position) { return position; }
 
-/// Rounding to pixels is noise as well.
+/// A position from range and bearing is unbiased over normal noise of the bearing, which shortens it
+/// by the factor e^(−σ²/2); without that noise it is as much too long.
+Vec2 averaged(const Radar& radar, std::span<const ErrorPart> errors, const Vec2& site,
+              const Vec2& position) {
+  const double variance = radar.noise().bearing * radar.noise().bearing;
+  double factor = 0.0;
+  for (const ErrorPart& part : errors) {
+    factor += part.probability * portable::exp(-0.5 * part.variance_factor * variance);
+  }
+  return site + factor * (position - site);
+}
+Vec2 averaged(const auto&, std::span<const ErrorPart>, const Vec2&, const Vec2& position) {
+  return position;
+}
+
+double normal_probability(double x) {
+  const double within = chi_square_probability(x * x, 1.0);
+  return 0.5 + (x < 0.0 ? -0.5 : 0.5) * within;
+}
+
+struct Moments {
+  double mean = 0.0, square = 0.0;
+};
+
+/// Of a normal number that is rounded to the middle of its cell.
+Moments rounded(double number, double sigma, double cell) {
+  constexpr double kMany = 2.0;  // cells a sigma: rounding is independent noise there
+  constexpr double kFar = 8.0;   // sigmas
+  if (sigma > kMany * cell) return {number, number * number + sigma * sigma + cell * cell / 12.0};
+  Moments moments;
+  const double last = std::floor((number + kFar * sigma) / cell);
+  double below = 0.0;
+  for (double i = std::floor((number - kFar * sigma) / cell); i <= last; ++i) {
+    const double up_to = i == last ? 1.0 : normal_probability(((i + 1.0) * cell - number) / sigma);
+    const double middle = (i + 0.5) * cell;
+    moments.mean += (up_to - below) * middle;
+    moments.square += (up_to - below) * middle * middle;
+    below = up_to;
+  }
+  return moments;
+}
+
+/// Of a camera that rounds: pixel by pixel, through the lens at the mean one.
+std::optional<ExpectedMeasurement> rounded(const Camera& camera, std::span<const ErrorPart> errors,
+                                           const Vec2& site, const Vec2& place) {
+  Camera exact = camera;
+  exact.quantum_px = 0.0;
+  const auto seen = [&](const Vec2& offset_px) {
+    return exact.measure(place, site, offset_px / exact.noise_px);
+  };
+  const auto truth = seen(Vec2::Zero());
+  const auto right = seen(Vec2::UnitX()), below = seen(Vec2::UnitY());
+  if (!truth || !right || !below) return std::nullopt;
+  Vec2 offset, variance;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double pixel = truth->measured->z[axis];
+    const double place_in_cell = pixel - camera.quantum_px * std::floor(pixel / camera.quantum_px);
+    Moments all;
+    for (const ErrorPart& part : errors) {
+      const double sigma = camera.noise_px * std::sqrt(part.variance_factor);
+      const Moments one = rounded(place_in_cell, sigma, camera.quantum_px);
+      all.mean += part.probability * one.mean;
+      all.square += part.probability * one.square;
+    }
+    offset[axis] = all.mean - place_in_cell;
+    variance[axis] = all.square - all.mean * all.mean;
+  }
+  const auto mean = seen(offset);
+  if (!mean) return std::nullopt;
+  Eigen::Matrix2d per_pixel;
+  per_pixel << right->position - truth->position, below->position - truth->position;
+  return ExpectedMeasurement{*mean, per_pixel * variance.asDiagonal() * per_pixel.transpose()};
+}
+
 Camera without_noise(Camera camera) {
   camera.quantum_px = 0.0;
   return camera;
@@ -70,15 +141,41 @@ std::optional<std::vector<ErrorPart>> error_parts(const SensorConfig& sensor) {
   return all;
 }
 
+bool is_normal(const SensorConfig& sensor, std::span<const ErrorPart> errors) {
+  if (errors.size() > 1) return false;
+  const auto* const camera = std::get_if<Camera>(&sensor.model);
+  return camera == nullptr || camera->quantum_px <= camera->noise_px;
+}
+
 std::optional<Detection> noiseless_detection(const SensorConfig& sensor, const Vec2& place) {
   return std::visit(
       [&](const auto& model) {
         std::optional<Detection> detection =
             without_noise(model).measure(place, sensor.site, Vec2::Zero());
-        if (detection) detection->position = averaged(model, sensor.site, detection->position);
         return detection;
       },
       sensor.model);
+}
+
+std::optional<ExpectedMeasurement> expected_measurement(const SensorConfig& sensor,
+                                                        std::span<const ErrorPart> errors,
+                                                        const Vec2& place, const Detection& told) {
+  std::optional<ExpectedMeasurement> expected;
+  const auto* const camera = std::get_if<Camera>(&sensor.model);
+  if (camera != nullptr && camera->quantum_px > 0.0) {
+    expected = rounded(*camera, errors, sensor.site, place);
+  } else if (auto detection = noiseless_detection(sensor, place)) {
+    expected = {*std::move(detection), mean_factor(errors) * told.covariance};
+    expected->mean.position = std::visit(
+        [&](const auto& model) {
+          return averaged(model, errors, sensor.site, expected->mean.position);
+        },
+        sensor.model);
+  }
+  if (!expected) return std::nullopt;
+  expected->mean.covariance = told.covariance;
+  if (expected->mean.measured && told.measured) expected->mean.measured->r = told.measured->r;
+  return expected;
 }
 
 }  // namespace ghtrack

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "tools/metrics/expected_error.hpp"
@@ -35,27 +36,52 @@ class Following {
   /// Goes on to the next scan.
   void update(const StepRecord& record);
 
-  /// A scan has come late, and changed what tracks know in a way that nobody follows.
-  void lose_count();
+  /// A scan has come late and was worked in where it belongs: what is expected follows, if each object
+  /// has one track, which has used the detections of it.
+  void replay(const StepRecord& late);
 
   /// The object that a track follows.
-  std::optional<ObjectId> object_of(int track) const;
+  std::optional<ObjectId> object_of(const TrackEstimate& track) const;
 
   /// Of a track that follows an object, at the latest scan; nothing if it is not known.
-  std::optional<ExpectedError::Value> expected(int track, const TruthState& truth) const;
+  std::optional<ExpectedError::Value> expected(const TrackEstimate& track,
+                                               const TruthState& truth) const;
 
  private:
+  /// A scan, as far as it concerns one track.
+  struct Moment {
+    double time = 0.0;
+    int sensor = 0;
+    TruthState truth;  // of its object
+    std::optional<Detection> used;
+  };
+
+  /// The expected error of a track; and as it was before what late scans may still change.
+  struct Expected {
+    std::optional<ExpectedError> now, before;
+    std::vector<Moment> since;  // by time and sensor
+  };
+
   struct Followed {
     ObjectId object = 0;
-    std::int64_t scan = 0;                 // the latest in which the track was there
-    std::unique_ptr<ExpectedError> error;  // large, and absent where nothing is expected
+    std::int64_t scan = 0;               // the latest in which the track was there
+    std::unique_ptr<Expected> expected;  // large, and absent where nothing is expected
   };
+
+  void advance(std::optional<ExpectedError>& error, const Moment& moment) const;
+  void advance(Expected& expected, const Moment& moment) const;
+  void insert(Expected& expected, const Moment& late) const;
+  void begin_late(const StepRecord& late, const std::vector<int>& tracks_of);
 
   std::size_t objects_;
   std::optional<FilterTheory> theory_;
   std::vector<std::vector<ErrorPart>> errors_;  // by Scan::sensor; none if they have no variance
   std::int64_t scan_ = 0;                       // counts them
-  std::unordered_map<int, Followed> followed_;  // by live track
+  double longest_delay_ = 0.0;                  // of a scan that is replayed [s]
+  std::unordered_set<int> live_;                // tracks, where scans are replayed
+  std::unordered_set<int> unforeseen_;          // of them, which began in a way that nobody followed
+  ExpectedError::Noise noise_ = ExpectedError::Noise::kNormal;  // of all sensors
+  std::unordered_map<int, Followed> followed_;  // live tracks, by the id that they were born with
 };
 
 }  // namespace ghtrack

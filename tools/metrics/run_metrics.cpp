@@ -86,7 +86,7 @@ void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& 
 
 void RunMetrics::add_tracks(const StepRecord& record) {
   if (record.contender != contender_) return;
-  if (record.fate == ScanFate::kReplayed) following_.lose_count();
+  if (record.fate == ScanFate::kReplayed) following_.replay(record);
   if (!record.is_in_order()) return;
   gather_sets(record);
   following_.update(record);
@@ -215,7 +215,7 @@ std::vector<std::optional<std::size_t>> RunMetrics::choose_tracks(const StepReco
                       tally.track != tracks[i].id, tracks[i].id);
   };
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const std::optional<ObjectId> object = following_.object_of(tracks[i].id);
+    const std::optional<ObjectId> object = following_.object_of(tracks[i]);
     if (!object || !counts_as_output(tracks[i])) continue;
     auto& best = chosen.at(static_cast<std::size_t>(*object));
     if (!best || rank(i, *object) < rank(*best, *object)) best = i;
@@ -228,7 +228,7 @@ RunMetrics::ScanScore RunMetrics::score_of(const TruthState& truth, const TrackE
   ScanScore score{.time = time,
                   .error = track.position - truth.position,
                   .squared_velocity_error = (track.velocity - truth.velocity).squaredNorm(),
-                  .expected = following_.expected(track.id, truth),
+                  .expected = following_.expected(track, truth),
                   .filter = track.filter,
                   .gains = track.gains};
   if (const double speed = truth.velocity.norm(); speed > 0.0) {

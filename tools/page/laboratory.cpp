@@ -79,7 +79,7 @@ class Laboratory::Notes final : public RunObserver {
                             static_cast<double>(answer.tracks.size()),
                             static_cast<double>(record.tracks.tracks.size())});
     for (const TrackEstimate& track : record.tracks.tracks) {
-      answer.tracks.push_back(row_of(track, index, following.object_of(track.id).value_or(-1)));
+      answer.tracks.push_back(row_of(track, index, following.object_of(track).value_or(-1)));
     }
   }
 

@@ -18,16 +18,17 @@ const char* const kSpeedsUp =
     "train: {stock: ideal, speed: 20, drive: [{at: 8, accelerate: 1}, {at: 12, accelerate: 0}]}";
 
 /// Something followed by one filter of every kind.
-Comparison compared_sensors(const std::string& sensors, const std::string& motion = kSpeedsUp) {
+Comparison compared_sensors(const std::string& sensors, const std::string& motion = kSpeedsUp,
+                            const std::string& tracker = "association: known", int runs = 40) {
   const std::string text = R"(
 name: predicted
 duration: 20
 targets:
   - {name: a, )" + motion + R"(}
 sensors: )" + sensors + R"(
-tracker: {association: known}
+tracker: {)" + tracker + R"(}
 compare:
-  runs: 40
+  runs: )" + std::to_string(runs) + R"(
   filters:
     order 0: {order0: {g: 0.9}}
     g-h: {gh: {g: 0.3, h: 0.05}}
@@ -52,19 +53,22 @@ compare:
 
 /// Whether what is predicted lies within 2 % of what is measured, or within one and a half of its
 /// interval's half widths: of the hundreds of intervals here some miss.
-void expect_predicted(const Comparison& comparison) {
+/// @param but  a filter that is left out
+void expect_predicted(const Comparison& comparison, const std::string& but = "") {
   int rows = 0;
   for (const ComparisonRow& row : comparison.rows) {
     const bool is_asked = row.metric == Metric::kRmsePosition || row.metric == Metric::kMai ||
                           row.metric == Metric::kRmseVelocity || row.metric == Metric::kLag;
     if (!is_asked || !row.object.empty() || row.regime.empty()) continue;
+    if (comparison.filters[row.filter] == but) continue;
     const std::string what = comparison.filters[row.filter] + ", " + std::string(info(row.metric).name);
-    ASSERT_TRUE(row.predicted && row.ci95) << what;
-    const double half = 0.75 * (row.ci95->high - row.ci95->low);
+    ASSERT_TRUE(row.predicted) << what;
+    // Tails too heavy for an interval make the mean uncertain, too.
+    const double half = row.ci95 ? 0.75 * (row.ci95->high - row.ci95->low) : 0.03 * row.mean;
     EXPECT_NEAR(*row.predicted, row.mean, std::max(0.02 * std::abs(row.mean), half)) << what;
     ++rows;
   }
-  EXPECT_EQ(rows, 15 * 4);
+  EXPECT_EQ(rows, (but.empty() ? 15 : 14) * 4);
 }
 
 // Property: of every kind of filter, in matched and mismatched motion, the error, lag and innovation
@@ -85,6 +89,40 @@ TEST(Prediction, HoldsWithHeavyTails) {
   expect_predicted(compared_sensors(
       "[{name: cam, rate: 10, noise: 0.5, student_dof: 5, outlier_probability: 0.02, "
       "outlier_scale: 4}]"));
+}
+
+// Property: and with heavy tails of one sensor of two. Of one filter's shadows a few have met the
+// worst outliers, so that measuring tells more.
+TEST(Prediction, HoldsWhereOneSensorOfTwoHasHeavyTails) {
+  expect_predicted(compared_sensors("[{name: cam, rate: 10, noise: 0.5}, {name: wild, rate: 7, "
+                                    "phase: 0.02, noise: 0.5, outlier_probability: 0.1, "
+                                    "outlier_scale: 6}]"),
+                   "huber kalman");
+}
+
+// Property: and of what stands still before a camera whose cells are large beside its noise: near the
+// edge of a cell, since it takes many runs to see how much rare jumps into the next one add.
+TEST(Prediction, HoldsWithLargePixels) {
+  expect_predicted(compared_sensors(
+      "[{name: cam, rate: 10, kind: camera, noise_px: 0.3, quantum_px: 4, flat: {}}]",
+      "train: {stock: ideal, speed: 0, position: [0.02, 0.03]}"));
+}
+
+// Property: and where scans come late and are worked in, also those from before all others.
+TEST(Prediction, HoldsWhereScansAreReplayed) {
+  expect_predicted(
+      compared_sensors("[{name: cam, rate: 10, phase: 0.1, noise: 0.5}, "
+                       "{name: far, rate: 7, noise: 0.3, latency: 0.25}]",
+                       kSpeedsUp, "association: known, late_scans: replay"));
+}
+
+// Property: and where a tracker finds out what is whose: its tracks begin before they are confirmed.
+// A filter of order 0 does not expect the train to move, so that its tracks lose some detections. The
+// errors of velocity are those of the start, most of all, which is why there are more runs.
+TEST(Prediction, HoldsFromTheFirstDetectionOn) {
+  expect_predicted(compared_sensors("[{name: cam, rate: 10, noise: 0.5}]", kSpeedsUp,
+                                    "association: nearest-global, gate: 8", 160),
+                   "order 0");
 }
 
 // Property: and with range and bearing, whose errors have a direction, and of a ball, whose motion no

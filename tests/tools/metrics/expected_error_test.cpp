@@ -44,7 +44,7 @@ ExpectedError::Value after(const Filter& fresh, int scans, double acceleration,
     if (error) {
       error->advance(truth, kPeriod * i, used);
     } else {
-      error.emplace(fresh, truth, used, 0.0, 1);
+      error.emplace(fresh, truth, used, 0.0, 1, ExpectedError::Noise::kNormal);
     }
   }
   return error->value(accelerating(kPeriod * (scans - 1), acceleration));
@@ -89,7 +89,7 @@ TEST(ExpectedError, StaysWhatItIsForARadar) {
     if (error) {
       error->advance(truth, kPeriod * i, used);
     } else {
-      error.emplace(gh(0.5, 0.2), truth, used, 0.0, 1);
+      error.emplace(gh(0.5, 0.2), truth, used, 0.0, 1, ExpectedError::Noise::kNormal);
     }
   }
   const ExpectedError::Value value = error->value(truth);
@@ -118,7 +118,7 @@ TEST(ExpectedError, StaysExactWhereNoiseIsElongated) {
     if (error) {
       error->advance(truth, kPeriod * i, used);
     } else {
-      error.emplace(gh(0.5, 0.2), truth, used, 0.0, 1);
+      error.emplace(gh(0.5, 0.2), truth, used, 0.0, 1, ExpectedError::Noise::kNormal);
     }
   }
   const double noise = variance_reduction(Gains::of_gh(0.5, 0.2), kPeriod).x;
@@ -169,6 +169,47 @@ TEST(ExpectedLength, IsThatOfRayleigh) {
   Eigen::Matrix2d line = Eigen::Matrix2d::Zero();
   line(1, 1) = 4.0;
   EXPECT_NEAR(expected_length(Vec2::Zero(), line), 2.0 * std::sqrt(2.0 / std::numbers::pi), 1e-3);
+}
+
+// Derived: far from the edge of a cell all detections say its middle, without noise; on the edge half
+// of them say the middle of either cell.
+TEST(ExpectedMeasurement, KnowsWhatRoundingMakesOfAPlace) {
+  Camera camera_model;
+  camera_model.noise_px = 0.1;
+  camera_model.quantum_px = 4.0;
+  camera_model.lens = FlatLens{.metres_per_pixel = 0.5};
+  SensorConfig sensor = camera();
+  sensor.model = camera_model;
+  const auto errors = error_parts(sensor).value();
+  const auto seen = [&](const Vec2& place) {
+    const Detection told = camera_model.measure(place, Vec2::Zero(), Vec2::Zero()).value();
+    return expected_measurement(sensor, errors, place, told).value();
+  };
+  // The middle of the image, at the pixels (960, 540), is the corner of four cells 2 m wide.
+  const ExpectedMeasurement inside = seen({0.6, 1.3});
+  EXPECT_LT((inside.mean.position - Vec2(1.0, 1.0)).norm(), 1e-9);
+  EXPECT_LT(inside.covariance.norm(), 1e-9);
+  const ExpectedMeasurement edge = seen({2.0, 0.6});
+  EXPECT_LT((edge.mean.position - Vec2(2.0, 1.0)).norm(), 1e-9);
+  EXPECT_NEAR(edge.covariance(0, 0), 1.0, 1e-9);
+  EXPECT_NEAR(edge.covariance(1, 1), 0.0, 1e-9);
+}
+
+// Property: with noise beyond a cell rounding is noise of its own, of variance cell²/12.
+TEST(ExpectedMeasurement, TakesRoundingForNoiseBesideMuchNoise) {
+  Camera camera_model;
+  camera_model.noise_px = 1.5;
+  camera_model.quantum_px = 1.0;
+  camera_model.lens = Pinhole{.distance = 40.0, .pan_deg = 20.0};
+  SensorConfig sensor = camera();
+  sensor.model = camera_model;
+  const auto errors = error_parts(sensor).value();
+  for (const Vec2& place : {Vec2(0.0, 0.0), Vec2(3.21, -4.7), Vec2(-6.5, 2.9)}) {
+    const Detection told = camera_model.measure(place, Vec2::Zero(), Vec2::Zero()).value();
+    const ExpectedMeasurement seen = expected_measurement(sensor, errors, place, told).value();
+    EXPECT_LT((seen.mean.position - place).norm(), 1e-3 * std::sqrt(told.covariance.trace()));
+    EXPECT_LT((seen.covariance - told.covariance).norm(), 0.02 * told.covariance.norm());
+  }
 }
 
 }  // namespace
