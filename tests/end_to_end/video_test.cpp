@@ -131,19 +131,36 @@ TEST(Video, IsSmallAsAGif) {
   EXPECT_EQ(large.at("nb_read_frames"), "8");
 }
 
-// Property: a video that begins later shows what the whole one shows then, trails and scores
-// included: to the last pixel.
+std::string frame_name(int number) {
+  const std::string digits = std::to_string(number);
+  return "frame_" + std::string(6 - digits.size(), '0') + digits + ".png";
+}
+
+// Property: a video that begins later shows what the whole one shows then, to the last pixel, in
+// every scene and with every layer: trails and scores, close-ups, a camera that follows, smoothed
+// paths, fans, filters side by side.
 TEST(Video, ShowsFromSomeTimeOnWhatTheWholeVideoShows) {
-  const TemporaryFolder folder;
-  const std::string options = " --size 640x360 --fps 10 --show insets --trail whole";
-  video(folder, "three_regimes.yaml", "whole/", "--to 3" + options);
-  video(folder, "three_regimes.yaml", "late/", "--from 2.5 --to 3" + options);
-  for (int i = 0; i < 5; ++i) {
-    const auto name = [](int number) { return "frame_00000" + std::to_string(number) + ".png"; };
-    const auto whole_name = "frame_0000" + std::to_string(25 + i) + ".png";
-    EXPECT_TRUE(contents(folder.path() / "late" / name(i)) ==
-                contents(folder.path() / "whole" / whole_name))
-        << i;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"three_regimes.yaml", "--show insets --trail whole"},
+      {"throwing.yaml", "--show smoothed,fans --theme light"},
+      {"throwing.yaml", "--compare"},
+      {"balloons.yaml", "--set video.follow=red --trail 1"},
+      {"balloons.yaml", "--set 'video.shots=[{at: 1.2, target: red, width: 9}]'"},
+      {"physics/bounce-test.yaml", ""},
+      {"physics/hurricane.yaml", "--show smoothed,insets"},
+      {"sensors/radar_and_camera.yaml", "--text 1.3"},
+      {"regimes/train.yaml", "--trail 0.5"}};
+  constexpr int kRate = 10, kBefore = 15, kShown = 5;
+  for (const auto& [scene, wish] : cases) {
+    const TemporaryFolder folder;
+    const std::string options = "--to 2 --slow 1 --size 320x180 --fps " + std::to_string(kRate) + " " + wish;
+    const fs::path whole = video(folder, scene, "whole/", options);
+    const fs::path late = video(folder, scene, "late/", "--from 1.5 " + options);
+    EXPECT_EQ(names_in(late).size(), std::size_t{kShown}) << scene;
+    for (int i = 0; i < kShown; ++i) {
+      EXPECT_TRUE(contents(late / frame_name(i)) == contents(whole / frame_name(kBefore + i)))
+          << scene << " " << wish << ", frame " << i;
+    }
   }
 }
 

@@ -76,9 +76,9 @@ std::vector<render::SmoothedPaths> smoothed_paths(const WorldScene& scene, Truth
 }
 
 render::VideoWriter writer_of(const WorldScene& scene, render::VideoOptions options,
-                              const render::SceneDrawing& drawing, TruthSource& truth,
+                              render::SceneDrawing drawing, TruthSource& truth,
                               const std::function<void()>& on_step) {
-  magnify_small_errors(scene, drawing, truth, on_step, options);
+  magnify_small_errors(scene, truth, on_step, drawing, options);
   return {options, drawing};
 }
 

@@ -68,31 +68,6 @@ double usual_trail(double duration, double slow) {
   return std::max(kLeast, kShare * duration * std::min(1.0, slow));
 }
 
-/// The corner in which so many close-ups hide the least of what happens, if that is next to nothing.
-std::optional<VideoCorner> free_corner(const render::View& view, const std::vector<Vec2>& places,
-                                       std::size_t close_ups) {
-  constexpr double kWidth = 0.3, kHeight = 0.4;  // of the picture, about, for each
-  constexpr double kMostHidden = 0.01;           // of all places
-  const render::Viewport& picture = view.viewport();
-  const double height = kHeight * static_cast<double>(close_ups) * picture.height;
-  constexpr std::array kCorners{VideoCorner::kTopRight, VideoCorner::kTopLeft,
-                                VideoCorner::kBottomLeft, VideoCorner::kBottomRight};
-  std::array<int, kCorners.size()> hidden{};
-  for (const Vec2& place : places) {
-    const render::Pixel at = view.to_pixel(place);
-    const bool is_left = at.x < kWidth * picture.width;
-    const bool is_right = at.x > (1.0 - kWidth) * picture.width;
-    const bool is_top = at.y < height, is_bottom = at.y > picture.height - height;
-    hidden[0] += is_right && is_top;
-    hidden[1] += is_left && is_top;
-    hidden[2] += is_left && is_bottom;
-    hidden[3] += is_right && is_bottom;
-  }
-  const auto least = std::min_element(hidden.begin(), hidden.end());
-  if (*least > kMostHidden * static_cast<double>(places.size())) return std::nullopt;
-  return kCorners[static_cast<std::size_t>(least - hidden.begin())];
-}
-
 }  // namespace
 
 render::VideoOptions video_options(const WorldScene& scene, const std::vector<ObjectInfo>& objects,
@@ -125,8 +100,8 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
   return options;
 }
 
-void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& drawing,
-                          TruthSource& truth, const std::function<void()>& on_step,
+void magnify_small_errors(const WorldScene& scene, TruthSource& truth,
+                          const std::function<void()>& on_step, render::SceneDrawing& drawing,
                           render::VideoOptions& options) {
   constexpr double kLeastVisible = 1.0 / 320.0;  // of the picture, for 1 sigma of a detection
   constexpr double kWidthInSigmas = 40.0;
@@ -146,22 +121,11 @@ void magnify_small_errors(const WorldScene& scene, const render::SceneDrawing& d
     if (options.close_ups.size() == kMost) break;
     const double width = std::max(kWidthInSigmas * sigma, kWidthInLengths * object.outline.length);
     if (width * 4.0 > size.x()) continue;  // would show no more than the whole does
-    options.close_ups.push_back({.target = object.id, .width = width});
+    options.close_ups.push_back({.target = object.id, .width = width, .corner = std::nullopt});
   }
   if (options.close_ups.empty()) return;
-  const render::View view(
-      world, {0.0, 0.0, static_cast<double>(options.width), static_cast<double>(options.height)});
   truth.restart();
-  const std::vector<Vec2> places = places_visited(truth, scene.duration, on_step);
-  while (!options.close_ups.empty()) {
-    const auto corner = free_corner(view, places, options.close_ups.size());
-    if (!corner) {
-      options.close_ups.pop_back();
-      continue;
-    }
-    for (render::CloseUp& close_up : options.close_ups) close_up.corner = *corner;
-    return;
-  }
+  drawing.places = places_visited(truth, scene.duration, on_step);
 }
 
 render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, TruthSource& truth,

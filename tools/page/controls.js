@@ -29,8 +29,8 @@ lab.scales = {
   factors: { to: (share, low, high) => low * (high / low) ** share, from: (v, low, high) => Math.log(Math.max(v, low) / low) / Math.log(high / low) },
 };
 
-/** A labelled slider. onInput gets the new value, rounded to three digits. */
-lab.slider = ({ id, label, meaning, unit, low, high, scale, value, onInput }) => {
+/** A labelled slider. onInput gets the new value, rounded to three digits or to a whole number. */
+lab.slider = ({ id, label, meaning, unit, low, high, scale, value, whole, onInput }) => {
   const row = document.createElement("div");
   row.className = "lab-slider";
   const name = document.createElement("label");
@@ -50,7 +50,8 @@ lab.slider = ({ id, label, meaning, unit, low, high, scale, value, onInput }) =>
   input.value = Math.round(1000 * Math.min(1, Math.max(0, from(value, low, high))));
   show(value);
   input.addEventListener("input", () => {
-    const v = Number(to(input.value / 1000, low, high).toPrecision(3));
+    const turned = to(input.value / 1000, low, high);
+    const v = whole ? Math.round(turned) : Number(turned.toPrecision(3));
     show(v);
     onInput(v);
   });
@@ -214,7 +215,7 @@ lab.Controls = class {
       const value = values[number.key] ?? number.default ?? 1;
       const [low, high, scale] = lab.rangeOf(number, value);
       return lab.slider({ id: `lab-filter-${number.key}`, label: number.key, meaning: number.meaning,
-        unit: number.unit, low, high, scale, value,
+        unit: number.unit, low, high, scale, value, whole: number.whole,
         onInput: (v) => { this.filter = { [kind]: { ...values, ...this.filter[kind], [number.key]: v } }; this.showText(); this.changed(); } });
     }));
     this.showText();

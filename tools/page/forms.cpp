@@ -13,13 +13,18 @@ namespace {
 using schema::FieldType;
 using schema::StructType;
 
-/// The type of a number, given or optional; null for all else.
+/// Of a value that is given or optional.
+const schema::Type& type_within(const schema::Type& type) {
+  const auto* optional = std::get_if<schema::OptionalType>(&type.shape);
+  return optional == nullptr ? type : type_within(optional->item());
+}
+
+bool is_whole(const schema::Type& type) {
+  return std::holds_alternative<schema::IntegerType>(type_within(type).shape);
+}
+
 bool is_number(const schema::Type& type) {
-  if (const auto* optional = std::get_if<schema::OptionalType>(&type.shape)) {
-    return is_number(optional->item());
-  }
-  return std::holds_alternative<schema::RealType>(type.shape) ||
-         std::holds_alternative<schema::IntegerType>(type.shape);
+  return is_whole(type) || std::holds_alternative<schema::RealType>(type_within(type).shape);
 }
 
 nlohmann::json bound(double value) {
@@ -34,6 +39,7 @@ nlohmann::json numbers_of(const StructType& type, const void* defaults) {
                        {"unit", field.info.unit},
                        {"meaning", field.info.meaning},
                        {"required", field.info.required},
+                       {"whole", is_whole(field.type())},
                        {"default", schema::to_json(field.type(), field.member(defaults))},
                        {"minimum", bound(std::max(field.info.minimum, field.info.above))},
                        {"maximum", bound(std::min(field.info.maximum, field.info.below))}});

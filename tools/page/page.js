@@ -35,9 +35,9 @@
   const controls = lab.controls = new lab.Controls(scene, () => { isStale = true; redraw(); });
   const views = lab.views = [0, 1].map((i) => new lab.WorldView(byId(`lab-view-${i}`), state, i));
   const plots = [
-    new lab.Plot(byId("lab-error"), state, { floor: 0, curves: () => lab.errorCurves(state) }),
-    new lab.Plot(byId("lab-residual"), state, { curves: () => lab.residualCurves(state), bands: () => lab.residualBand(state) }),
-    new lab.Plot(byId("lab-existence"), state, { unit: "1", floor: 0, curves: () => lab.existenceCurves(state) }),
+    new lab.Plot(byId("lab-error"), state, { floor: 0, curves: () => lab.errorCurves(state), empty: "no confirmed track" }),
+    new lab.Plot(byId("lab-residual"), state, { curves: () => lab.residualCurves(state), bands: () => lab.residualBand(state), empty: "no track" }),
+    new lab.Plot(byId("lab-existence"), state, { unit: "1", floor: 0, curves: () => lab.existenceCurves(state), empty: "no track" }),
   ];
   let isStale = true;      // the result is not that of the setting
   let isDrawn = false;     // the picture is that of the state
@@ -50,20 +50,23 @@
     const { tracks, scans } = answer;
     answer.paths = new Map();
     answer.errors = new Map();
+    answer.followed = [];  // by row: whom the track follows, or has followed before
     for (let row = 0; row < tracks.length; ++row) {
       const id = tracks.get(row, "id"), object = tracks.get(row, "object");
       if (!answer.paths.has(id)) answer.paths.set(id, []);
-      answer.paths.get(id).push(row);
+      const path = answer.paths.get(id);
+      answer.followed.push(object < 0 && path.length > 0 ? answer.followed[path.at(-1)] : object);
+      path.push(row);
       if (object < 0 || tracks.get(row, "status") === 0) continue;
       const time = scans.get(tracks.get(row, "scan"), "time");
-      const path = state.truth.paths[object];
-      const i = lab.latest(path.t, time);
-      if (i < 0 || path.t[i] < time - 1e-6) continue;
+      const way = state.truth.paths[object];
+      const i = lab.latest(way.t, time);
+      if (i < 0 || way.t[i] < time - 1e-6) continue;
       if (!answer.errors.has(object)) answer.errors.set(object, []);
       const errors = answer.errors.get(object);
       if (errors.length > 0 && errors.at(-1)[0] === time) continue;
       if (errors.length > 0 && time - errors.at(-1)[0] > gap) errors.push([time, NaN]);
-      errors.push([time, Math.hypot(tracks.get(row, "x") - path.x[i], tracks.get(row, "y") - path.y[i])]);
+      errors.push([time, Math.hypot(tracks.get(row, "x") - way.x[i], tracks.get(row, "y") - way.y[i])]);
     }
   }
 
@@ -127,9 +130,9 @@
     const unit = ["m/s", "m/s²", "m/s³"][order], what = ["a velocity", "an acceleration", "a jerk"][order];
     const rows = [["gains", theory.gains]];
     if (theory.stable) {
-      rows.push(["noise left", `${lab.short(Math.sqrt(theory.vrf.x) * sigma)} m of ${lab.short(sigma)} m`],
+      rows.push(["noise left", `${lab.short(Math.sqrt(theory.vrf.x) * sigma)}\u00a0m of ${lab.short(sigma)}\u00a0m`],
         [`lag behind ${what} of 1 ${unit}`, `${lab.short(theory.lag.x)} m`],
-        ["forgets a start in", `${lab.short(theory.settling_updates)} scans, ${lab.short(theory.settling_updates * dt)} s`]);
+        ["forgets a start in", `${lab.short(theory.settling_updates)}\u00a0scans, ${lab.short(theory.settling_updates * dt)}\u00a0s`]);
     }
     facts.replaceChildren(...rows.flatMap(([name, value]) => {
       const [dt_, dd] = [document.createElement("dt"), document.createElement("dd")];

@@ -5,9 +5,10 @@ lab.Plot = class {
   /**
    * @param curves  () => [{ colour, width, dash, dots, points: [[t, value]…] }], breaks where a value is NaN
    * @param bands   () => [{ colour, points: [[t, low, high]…] }]
+   * @param empty   what is said where there is nothing to be drawn
    */
-  constructor(canvas, state, { unit, floor, xUnit, curves, bands }) {
-    Object.assign(this, { canvas, state, unit, floor, xUnit: xUnit ?? " s", curves, bands: bands ?? (() => []) });
+  constructor(canvas, state, { unit, floor, xUnit, curves, bands, empty }) {
+    Object.assign(this, { canvas, state, unit, floor, xUnit: xUnit ?? " s", curves, bands: bands ?? (() => []), empty: empty ?? "" });
     this.pen = canvas.getContext("2d");
     this.still = document.createElement("canvas");
     const seek = (event) => {
@@ -28,7 +29,7 @@ lab.Plot = class {
     this.canvas.width = this.still.width = Math.round(width * ratio);
     this.canvas.height = this.still.height = Math.round(height * ratio);
     this.ratio = ratio;
-    [this.left, this.right, this.top, this.bottom] = [44, width - 8, 8, height - 22];
+    [this.left, this.right, this.top, this.bottom] = [44, width - 12, 8, height - 22];
     const curves = this.curves(), bands = this.bands();
     let low = this.floor ?? Infinity, high = -Infinity;
     for (const { points } of curves) {
@@ -38,8 +39,10 @@ lab.Plot = class {
         if (value > high) high = value;
       }
     }
-    if (!(high > -Infinity)) [low, high] = [0, 1];
-    const isSize = this.floor === undefined && low >= 0 && bands.length === 0;
+    const isEmpty = !(high > -Infinity);
+    if (isEmpty) [low, high] = [0, 1];
+    // A size begins at nothing, unless that leaves what varies a strip at the top.
+    const isSize = this.floor === undefined && low >= 0 && low < high - low && bands.length === 0;
     if (isSize) low = 0;
     if (this.unit === "1") [low, high] = [0, 1.02];
     if (high === low) { high += 0.5; if (this.floor === undefined) low -= 0.5; }
@@ -71,7 +74,7 @@ lab.Plot = class {
       pen.fillText(`${lab.short(t)}${this.xUnit}`, Math.min(x, this.right - 12), this.bottom + 15);
     }
     pen.save();
-    pen.beginPath(); pen.rect(this.left, this.top, this.right - this.left, this.bottom - this.top); pen.clip();
+    pen.beginPath(); pen.rect(this.left - 3, this.top - 3, this.right - this.left + 6, this.bottom - this.top + 6); pen.clip();
     for (const { colour, points } of bands) {
       pen.fillStyle = colour;
       pen.globalAlpha = 0.16;
@@ -103,6 +106,11 @@ lab.Plot = class {
       pen.stroke();
     }
     pen.restore();
+    if (isEmpty) {
+      pen.fillStyle = colours.muted;
+      pen.textAlign = "center";
+      pen.fillText(this.empty, (this.left + this.right) / 2, (this.top + this.bottom) / 2, this.right - this.left);
+    }
     this.draw();
   }
 
@@ -136,7 +144,7 @@ lab.trackCurve = (state, which, value, dash) => {
   const answer = state.result.answers[which];
   const rows = answer?.paths.get(state.selectedTrack[which]);
   if (!rows) return null;
-  const colour = state.colours.of(answer.tracks.get(rows.at(-1), "object"));
+  const colour = state.colours.of(answer.followed[rows.at(-1)]);
   const points = rows.map((row) => [answer.scans.get(answer.tracks.get(row, "scan"), "time"),
     value((field) => answer.tracks.get(row, field))]);
   return { colour, dash, points };
@@ -146,7 +154,7 @@ lab.trackCurve = (state, which, value, dash) => {
 lab.curvesOfTracks = (state, value) => state.result.answers.flatMap((answer, which) =>
   [...answer.paths].filter(([id]) => state.selected < 0 || id === state.selectedTrack[which])
     .map(([id, rows]) => ({
-      colour: state.colours.of(answer.tracks.get(rows.at(-1), "object")),
+      colour: state.colours.of(answer.followed[rows.at(-1)]),
       dash: which === 1 ? [5, 4] : [],
       points: rows.map((row) => [answer.scans.get(answer.tracks.get(row, "scan"), "time"),
         value((field) => answer.tracks.get(row, field))]),

@@ -107,10 +107,13 @@
 
   const meanings = { x0: "guess at the start", dx0: "guess of the rate", ddx0: "guess of the acceleration",
     sigma: "1 sigma that it assumes", noise: "1 sigma", rate: "of the truth, a step", acceleration: "of the truth",
-    start: "of the truth" };
+    start: "of the truth", accuracy: "that it believes the sensor to have", cells: "places that there are",
+    movement: "places a step" };
+  const whole = new Set(["cells", "movement", "n", "order"]);
 
   /** Whether a number of a filter makes a difference to what it says. */
-  function matters({ filter, k, order }, key) {
+  function matters({ filter, k, order, map }, key) {
+    if (filter === "discrete-bayes") return [...map?.length > 0 ? ["accuracy"] : ["cells", "noise"], "movement"].includes(key);
     if (key === "sigma" || key === "initial_speed") return /kalman/.test(filter);
     return key !== "ddx0" || k !== undefined || order === 2 || filter === "kalman-ca";
   }
@@ -123,9 +126,9 @@
       const range = { g: [0, 2, "fine"], h: [0, 2, "fine"], k: [0, 1, "fine"], theta: [0, 0.999, "even"],
         x0: [low - reach, high + reach, "even"], dx0: [-rate, rate, "even"], ddx0: [-rate, rate, "even"],
         noise: [0, Math.max(1, 4 * value), "fine"], rate: [-rate, rate, "even"], acceleration: [-30, 30, "even"],
-        start: [low - reach, high + reach, "even"] }[key] ?? [Math.abs(value || 1) / 50, Math.abs(value || 1) * 50, "factors"];
+        start: [low - reach, high + reach, "even"], accuracy: [0.01, 0.99, "even"], movement: [-3, 3, "even"] }[key] ?? [Math.abs(value || 1) / 50, Math.abs(value || 1) * 50, "factors"];
       return lab.slider({ id: `lab-${prefix}-${key}`, label: key, meaning: meanings[key] ?? "", unit: "",
-        low: Math.min(range[0], value), high: Math.max(range[1], value), scale: range[2], value,
+        low: Math.min(range[0], value), high: Math.max(range[1], value), scale: range[2], value, whole: whole.has(key),
         onInput: (v) => { target[key] = v; redraw(); } });
     });
   }

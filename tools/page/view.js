@@ -31,6 +31,11 @@ lab.ticks = (low, high, count) => {
   }
   return all;
 };
+/** The greatest of 1, 2 or 5 times a power of ten that is not above a value. */
+lab.roundBelow = (value) => {
+  const power = 10 ** Math.floor(Math.log10(value) + 1e-9);
+  return Number((power * [5, 2, 1].find((factor) => factor * power <= value * (1 + 1e-9))).toPrecision(12));
+};
 lab.short = (value) => !Number.isFinite(value) ? "–" : value === 0 ? "0" :
   Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4 ? value.toExponential(2)
     : String(Number(value.toPrecision(4)));
@@ -111,8 +116,8 @@ lab.WorldView = class {
     pen.fillRect(0, 0, this.width, this.height);
     if (state.shows("grid")) this.drawGrid();
     this.drawScenery();
-    if (state.shows("grid")) this.drawNumbers();
     if (state.shows("sensors")) this.drawSensors();
+    if (state.shows("grid")) this.drawNumbers();
     if (state.shows("truth")) this.drawTruthPaths();
     this.drawDetections();
     if (state.shows("truth")) this.drawTruth();
@@ -134,7 +139,7 @@ lab.WorldView = class {
   /** Where lines of the grid are: values, and pixels beside them. */
   grid() {
     const [left, top] = this.toWorld(0, 0), [right, bottom] = this.toWorld(this.width, this.height);
-    return [lab.ticks(left, right, Math.max(2, this.width / 110)).map((x) => [x, Math.round(this.x(x)) + 0.5]),
+    return [lab.ticks(left, right, Math.max(4, this.width / 110)).map((x) => [x, Math.round(this.x(x)) + 0.5]),
       lab.ticks(bottom, top, Math.max(2, this.height / 70)).map((y) => [y, Math.round(this.y(y)) + 0.5])];
   }
 
@@ -152,18 +157,27 @@ lab.WorldView = class {
   drawNumbers() {
     const { pen, state: { colours } } = this;
     const [upright, level] = this.grid();
-    pen.fillStyle = colours.muted;
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
     const end = this.scaleBar().left - 18;
-    for (const [x, at] of upright) if (at > 40 && at < end) pen.fillText(lab.short(x), at, this.height - 5);
+    for (const [x, at] of upright) if (at > 40 && at < end) this.write(lab.short(x), at, this.height - 5, colours.muted);
     pen.textAlign = "left";
-    for (const [y, at] of level) if (at > 16 && at < this.height - 20) pen.fillText(lab.short(y), 4, at - 3);
+    for (const [y, at] of level) if (at > 16 && at < this.height - 20) this.write(lab.short(y), 4, at - 3, colours.muted);
+  }
+
+  /** Letters that stand out from whatever lies below them. */
+  write(text, x, y, colour) {
+    const { pen, state: { colours } } = this;
+    pen.lineWidth = 4;
+    pen.strokeStyle = colours.page;
+    pen.strokeText(text, x, y);
+    pen.fillStyle = colour;
+    pen.fillText(text, x, y);
   }
 
   /** A bar to measure with, beside the numbers of the axis. */
   scaleBar() {
-    const metres = lab.ticks(0, 100 / this.scale, 2).pop() ?? 1;
+    const metres = lab.roundBelow(Math.min(100, this.width / 6) / this.scale);
     const length = metres * this.scale, text = `${lab.short(metres)} m`, right = this.width - 8;
     this.pen.font = "12px system-ui, sans-serif";
     return { text, right, start: right - length, left: right - length - 12 - this.pen.measureText(text).width };
@@ -376,7 +390,7 @@ lab.WorldView = class {
           points.push([tracks.get(rows[i], "x"), tracks.get(rows[i], "y")]);
         }
         if (points.length === 0) continue;
-        pen.strokeStyle = state.colours.of(tracks.get(rows[last], "object"));
+        pen.strokeStyle = state.colours.of(answer.followed[rows[last]]);
         pen.globalAlpha = live.has(id) ? 1 : 0.4;
         pen.lineWidth = id === state.selectedTrack[this.tracker] ? 4 : 2.5;
         this.line(points);
@@ -436,20 +450,20 @@ lab.WorldView = class {
       if (!at) return;
       const width = pen.measureText(object.name).width;
       const [px, py] = [this.x(at[0]), this.y(at[1])];
-      if (px < -50 || py < -30 || px > this.width + 50 || py > this.height + 30) return;
+      if (px < 0 || py < 0 || px > this.width || py > this.height) return;
       // Ahead of the object rather than on its path.
       const before = state.truth.at(i, Math.max(0, state.time - 0.3 * Math.min(state.trail, 10)));
       const left = -width - 11, aside = before && before[0] > at[0] ? [left, 11] : [11, left];
-      const places = aside.flatMap((dx) => [[dx, -11], [dx, 21]]).concat([[aside[0], -27], [aside[0], 37]]);
-      const place = places.find(([dx, dy]) => !taken.some(([x, y, w]) => px + dx < x + w + 4 &&
-        px + dx + width + 4 > x && Math.abs(py + dy - y) < 15)) ?? places[0];
-      const [x, y] = [Math.min(Math.max(px + place[0], 2), this.width - width - 2), py + place[1]];
-      taken.push([x, y, width]);
-      pen.lineWidth = 4;
-      pen.strokeStyle = state.colours.page;
-      pen.strokeText(object.name, x, y);
-      pen.fillStyle = state.colours.of(i);
-      pen.fillText(object.name, x, y);
+      const inside = (value, most) => Math.max(2, Math.min(value, most));
+      const places = aside.flatMap((dx) => [[dx, -11], [dx, 21]]).concat([[aside[0], -27], [aside[0], 37]])
+        .map(([dx, dy]) => [inside(px + dx, this.width - width - 2), inside(py + dy, this.height - 24)]);
+      const isFree = ([left, base]) => !taken.some(([x, y, w]) =>
+        left < x + w + 4 && left + width + 4 > x && Math.abs(base - y) < 15);
+      // In a crowd a name that has no room is left out: two on top of each other say nothing.
+      const place = places.find(isFree) ?? (i === state.selected ? places[0] : null);
+      if (!place) return;
+      taken.push([...place, width]);
+      this.write(object.name, ...place, state.colours.of(i));
     });
   }
 

@@ -56,8 +56,8 @@ void draw_hud(Canvas& canvas, const Viewport& area, const VideoOptions& options,
               const SceneDrawing& scene, const VideoFrame& frame, const Style& style,
               const Typefaces& fonts) {
   const double margin = style.length(16);
-  const double first = area.top + style.length(25);
-  const double second = area.top + style.length(45);
+  const double first = area.top + style.room(25);
+  const double second = area.top + style.room(45);
   const int large = style.letters(20);
   const int small = style.letters(15);
   const double right = area.right() - margin;

@@ -1,6 +1,8 @@
 #include "tools/render/layout.hpp"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 namespace ghtrack::render {
 
@@ -10,8 +12,8 @@ constexpr double kHudHeight = 56.0;
 constexpr double kHeaderHeight = 46.0;  // two lines
 constexpr double kPanelGap = 4.0;
 constexpr double kPlotShare = 0.2;      // of the picture's height
-constexpr double kCloseUpShare = 0.27;  // of the panel's width and height at least
 constexpr double kCloseUpMargin = 12.0;
+constexpr double kMarks = 24.0;  // around an object: its track, its detections
 
 /// Panels in columns and rows. Where a place is left over, it is for the plots; otherwise they get
 /// a strip below.
@@ -40,9 +42,9 @@ Grid grid(const Viewport& area, int count, int columns, double gap, double strip
           has_place_left};
 }
 
-Viewport corner_of(const Viewport& panel, VideoCorner corner, const Style& style) {
+Viewport corner_of(const Viewport& panel, VideoCorner corner, double share, const Style& style) {
   const double margin = style.length(kCloseUpMargin);
-  const double width = kCloseUpShare * panel.width;
+  const double width = share * panel.width;
   const double height = std::min(0.75 * width, panel.height - 2.0 * margin);
   const bool is_left = corner == VideoCorner::kTopLeft || corner == VideoCorner::kBottomLeft;
   const bool is_top = corner == VideoCorner::kTopLeft || corner == VideoCorner::kTopRight;
@@ -55,9 +57,9 @@ std::vector<Viewport> corners_of(const Viewport& panel, const std::vector<CloseU
                                  const Style& style) {
   std::vector<Viewport> places;
   for (std::size_t i = 0; i < close_ups.size(); ++i) {
-    Viewport place = corner_of(panel, close_ups[i].corner, style);
-    const bool is_top = close_ups[i].corner == VideoCorner::kTopLeft ||
-                        close_ups[i].corner == VideoCorner::kTopRight;
+    const VideoCorner corner = close_ups[i].corner.value_or(VideoCorner::kTopRight);
+    Viewport place = corner_of(panel, corner, close_ups[i].share, style);
+    const bool is_top = corner == VideoCorner::kTopLeft || corner == VideoCorner::kTopRight;
     const auto before =
         std::count_if(close_ups.begin(), close_ups.begin() + static_cast<std::ptrdiff_t>(i),
                       [&](const CloseUp& other) { return other.corner == close_ups[i].corner; });
@@ -68,6 +70,28 @@ std::vector<Viewport> corners_of(const Viewport& panel, const std::vector<CloseU
   return places;
 }
 
+/// Whether nobody, and nothing that is drawn around somebody, is ever below a close-up.
+bool hides_nobody(const Layout& layout, const SceneDrawing& scene, const Style& style) {
+  double length = 0.0;  // [m]
+  for (const ObjectInfo& object : scene.objects) {
+    length = std::max({length, object.outline.length, object.outline.width});
+  }
+  for (std::size_t i = 0; i < layout.panels.size(); ++i) {
+    const View view(world_of(scene), layout.panels[i]);
+    const double reach = style.length(kMarks) + 0.5 * length * view.scale();
+    for (const Viewport& area : layout.close_ups[i]) {
+      for (const Vec2& place : scene.places) {
+        const Pixel at = view.to_pixel(place);
+        if (at.x > area.left - reach && at.x < area.right() + reach && at.y > area.top - reach &&
+            at.y < area.bottom() + reach) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style,
@@ -75,14 +99,14 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
   const int count = std::max(1, static_cast<int>(scene.panels.size()));
   const double width = options.width;
   const double height = options.height;
-  const double header = count > 1 ? style.length(kHeaderHeight) : 0.0;
+  const double header = count > 1 ? style.room(kHeaderHeight) : 0.0;
   const double gap = count > 1 ? style.length(kPanelGap) : 0.0;
   const bool has_plots = count > 1 || options.layers.shows(Layer::kInsets);
   const double strip = has_plots ? kPlotShare * height : 0.0;
 
   Layout layout;
   layout.hud = {0.0, 0.0, width,
-                options.layers.shows(Layer::kHud) ? style.length(kHudHeight) : 0.0};
+                options.layers.shows(Layer::kHud) ? style.room(kHudHeight) : 0.0};
   layout.legend = {0.0, height - legend_height, width, legend_height};
 
   const Viewport area{0.0, layout.hud.bottom(), width, layout.legend.top - layout.hud.bottom()};
@@ -107,6 +131,37 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
     layout.close_ups.push_back(corners_of(panel, options.close_ups, style));
   }
   return layout;
+}
+
+std::vector<CloseUp> place_close_ups(const VideoOptions& options, const SceneDrawing& scene,
+                                     const Style& style, double legend_height) {
+  const auto says_where = [](const CloseUp& close_up) { return close_up.corner.has_value(); };
+  VideoOptions tried = options;
+  const auto placed = [&] {
+    return std::all_of(tried.close_ups.begin(), tried.close_ups.end(), says_where);
+  };
+  constexpr std::array kShares{1.0, 0.8, 0.65};
+  constexpr std::array kCorners{VideoCorner::kTopRight, VideoCorner::kTopLeft,
+                                VideoCorner::kBottomLeft, VideoCorner::kBottomRight};
+  while (!placed()) {
+    const std::vector<CloseUp> wanted = tried.close_ups;
+    for (const double share : kShares) {
+      for (const VideoCorner corner : kCorners) {
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+          if (says_where(wanted[i])) continue;
+          tried.close_ups[i].corner = corner;
+          tried.close_ups[i].share = share * wanted[i].share;
+        }
+        if (hides_nobody(lay_out(tried, scene, style, legend_height), scene, style)) {
+          return tried.close_ups;
+        }
+      }
+    }
+    tried.close_ups = wanted;
+    const auto last = std::find_if_not(tried.close_ups.rbegin(), tried.close_ups.rend(), says_where);
+    tried.close_ups.erase(std::next(last).base());
+  }
+  return tried.close_ups;
 }
 
 }  // namespace ghtrack::render

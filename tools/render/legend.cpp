@@ -217,15 +217,15 @@ double Legend::height() const {
   if (entries_.empty()) return 0.0;
   const auto breaks = std::count_if(entries_.begin(), entries_.end(),
                                     [](const Entry& entry) { return entry.begins_row; });
-  return style_.length(kRow * static_cast<double>(1 + breaks) + kPadding);
+  return style_.room(kRow * static_cast<double>(1 + breaks) + kPadding);
 }
 
 void Legend::draw(Canvas& canvas, const Viewport& area) const {
   const int letters = style_.letters(kLetters);
   const double left = area.left + style_.length(kMargin);
-  Pixel at{left, area.top + style_.length(0.5 * (kPadding + kRow))};
+  Pixel at{left, area.top + style_.room(0.5 * (kPadding + kRow))};
   for (const Entry& entry : entries_) {
-    if (entry.begins_row) at = {left, at.y + style_.length(kRow)};
+    if (entry.begins_row) at = {left, at.y + style_.room(kRow)};
     double x = at.x;
     for (const Sign sign : entry.signs) {
       const double icon =

@@ -65,11 +65,12 @@ Picture::Picture(const VideoOptions& options, const SceneDrawing& scene)
       style_(style_of(options)),
       panel_style_(style_of_panels(style_, scene)),
       legend_(options_, scene_, style_, panel_style_, fonts_),
-      layout_(lay_out(options_, scene_, style_, legend_.height())),
       camera_(options_, scene_),
       past_(trail_of(options, scene), scene.duration),
       errors_(0.0, scene.duration),
       insets_(options.slow) {
+  options_.close_ups = place_close_ups(options_, scene_, style_, legend_.height());
+  layout_ = lay_out(options_, scene_, style_, legend_.height());
   const bool compares = layout_.panels.size() > 1;
   for (std::size_t i = 0; i < layout_.panels.size(); ++i) {
     const TrackMemory::Manner manner{

@@ -29,6 +29,8 @@ struct Style {
   const Theme& theme() const { return *colors; }
 
   double length(double pixels) const { return pixels * unit; }
+  /// Of what holds letters, which must not be lower than they are.
+  double room(double pixels) const { return length(pixels) * std::max(1.0, text); }
   int letters(double pixels) const {
     return std::max(7, static_cast<int>(std::lround(pixels * unit * text)));
   }

@@ -47,7 +47,9 @@ struct Shot {
 struct CloseUp {
   ObjectId target = 0;
   double width = 10.0;  // [m] of the world across it
-  VideoCorner corner = VideoCorner::kTopRight;
+  /// Absent: one in which it hides nobody during the whole run. Where there is none, it is left out.
+  std::optional<VideoCorner> corner = VideoCorner::kTopRight;
+  double share = 0.27;  // of the panel's width
 };
 
 /// How a video is to be made.
@@ -116,6 +118,7 @@ struct SceneDrawing {
   std::vector<std::vector<Vec2>> rails;  // polylines [m], one per track
   std::vector<SensorDrawing> sensors;
   std::vector<ObjectInfo> objects;
+  std::vector<Vec2> places;  // [m] where bodies are during the run, for close-ups without a corner
   /// What is compared side by side: at most six, each a panel of its own. Empty or one: one
   /// picture.
   std::vector<PanelDrawing> panels;

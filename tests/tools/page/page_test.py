@@ -324,6 +324,24 @@ class Series(unittest.TestCase):
                 self.assertEqual(said, wanted)
             self.assertEqual(browser.complaints(), [])
 
+    # Property: wherever a slider of a series is turned to, the filter can be read; whole numbers stay whole.
+    def test_every_slider_says_what_can_be_read(self):
+        with tempfile.TemporaryDirectory() as folder, Browser() as browser:
+            for scene in ("bayes/dog-in-a-hallway.yaml", "bayes/prediction-alone.yaml", "bayes/dog-by-gaussians.yaml",
+                          "textbook/train.yaml", "homework/q4-acceleration.yaml"):
+                browser.open(page_of(scene, folder))
+                browser.driver.implicitly_wait(10)
+                browser.driver.find_element("css selector", "#lab-live:not([hidden])")
+                sliders = browser.run("return [...document.querySelectorAll('input[type=range]')].map((e) => e.id)")
+                self.assertGreater(len(sliders), 0, scene)
+                for slider in sliders:
+                    for place in (137, 618, 500):
+                        browser.run(SLIDE, slider, place)
+                        browser.driver.execute_async_script("requestAnimationFrame(() => setTimeout(arguments[0], 20))")
+                        problem = browser.run("return document.getElementById('lab-problem').textContent")
+                        self.assertNotRegex(problem, "integer|whole|expected|must be", f"{scene} {slider} {place}")
+            self.assertEqual(browser.complaints(), [])
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], "-v"])

@@ -11,10 +11,14 @@ TEST(Contrast, IsOneForEqualColoursAndTwentyOneForBlackAndWhite) {
   EXPECT_NEAR(contrast(kDark.text, kDark.text), 1.0, 1e-12);
 }
 
-// Property: graphics need a contrast of 3 with their ground, text needs 4.5 (WCAG 2.1).
+// Property: graphics need a contrast of 3 with their ground, text needs 4.5 (WCAG 2.1); names are
+// written in the colours of their tracks.
 TEST(Palette, StandsOutFromTheGround) {
   for (const Theme* theme : {&kDark, &kLight}) {
-    for (const Color color : theme->tracks) EXPECT_GE(contrast(color, theme->world), 3.0);
+    for (const Color color : theme->tracks) {
+      EXPECT_GE(contrast(color, theme->world), 4.5);
+      EXPECT_GE(contrast(color, theme->page), 4.5);
+    }
     for (const Color color :
          {theme->truth_edge, theme->detection, theme->clutter, theme->tentative}) {
       EXPECT_GE(contrast(color, theme->world), 3.0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <random>
 
 #include "tests/tools/render/synthetic_scene.hpp"
 #include "tools/render/plot_picture.hpp"
@@ -281,6 +282,51 @@ TEST(Layout, PutsThePlotWhereThereIsRoom) {
   EXPECT_NEAR(layout.plots.width, layout.panels[0].width, 1e-9);
   scene.panels.resize(2);
   EXPECT_EQ(lay_out(VideoOptions{}, scene, Style{}, 40.0).plots.width, 1280.0);
+}
+
+// Property: a close-up that may lie anywhere lies where nobody ever is, or is left out; whoever goes
+// through a strip at one side leaves room at the other.
+TEST(Layout, HidesNobodyBelowCloseUps) {
+  int left_out = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution(low, high)(random);
+    };
+    SceneDrawing scene = one_ball();
+    scene.panels.resize(1 + seed % 2);
+    for (int path = 0; path < 3; ++path) {
+      const Vec2 from(between(0.0, 200.0), between(0.0, 100.0));
+      const Vec2 to(between(0.0, 200.0), between(0.0, 100.0));
+      for (int i = 0; i <= 50; ++i) scene.places.push_back(from + (to - from) * (i / 50.0));
+    }
+    VideoOptions options;
+    options.close_ups = {{.target = 0, .corner = std::nullopt}, {.target = 0, .corner = std::nullopt}};
+    options.close_ups = place_close_ups(options, scene, Style{}, 64.0);
+    left_out += options.close_ups.empty() ? 1 : 0;
+    const Layout layout = lay_out(options, scene, Style{}, 64.0);
+    for (std::size_t i = 0; i < layout.panels.size(); ++i) {
+      const View view(*scene.world, layout.panels[i]);
+      for (const Viewport& area : layout.close_ups[i]) {
+        for (const Vec2& place : scene.places) {
+          const Pixel at = view.to_pixel(place);
+          EXPECT_FALSE(at.x > area.left && at.x < area.right() && at.y > area.top &&
+                       at.y < area.bottom())
+              << "seed " << seed << ": " << place.transpose();
+        }
+      }
+    }
+  }
+  EXPECT_LT(left_out, 10) << "three paths leave room somewhere";
+  SceneDrawing scene = one_ball();
+  scene.places = {Vec2(190.0, 10.0), Vec2(190.0, 50.0), Vec2(190.0, 90.0)};
+  VideoOptions options;
+  options.close_ups = {{.target = 0, .corner = std::nullopt}};
+  const auto placed = place_close_ups(options, scene, Style{}, 64.0);
+  ASSERT_EQ(placed.size(), 1u);
+  EXPECT_EQ(placed[0].corner, VideoCorner::kTopLeft);
+  for (int i = 0; i <= 20; ++i) scene.places.emplace_back(10.0 * i, 50.0 + 40.0 * (i % 3 - 1));
+  EXPECT_TRUE(place_close_ups(options, scene, Style{}, 64.0).empty());
 }
 
 // Property: panels lie side by side or above each other, inside the picture, without overlap.
