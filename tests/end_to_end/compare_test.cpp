@@ -424,7 +424,7 @@ TEST_F(Compare, MakesTheStudy) {
 // Property: tuning, which writes nothing before its end, can be interrupted.
 TEST_F(Compare, StopsTuningWhenInterrupted) {
   const Outcome outcome = run(
-      "timeout --preserve-status -s INT 1 ghtrack tune scene.yaml --runs 100000 --jobs 1 -o tuned");
+      "timeout --preserve-status -s INT 3 ghtrack tune scene.yaml --runs 100000 --jobs 1 -o tuned");
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_THAT(outcome.err, HasSubstr("ghtrack: interrupted; nothing was written"));
   EXPECT_THAT(names_in(folder()), ElementsAre("scene.yaml"));
