@@ -58,11 +58,12 @@ std::optional<BoxFields> BoxFields::find(const std::vector<std::string_view>& na
   fields.id = field(kId);
   fields.confidence = field(kConfidence);
   fields.named = names.size();
-  const auto take = [&](Place place, const auto& x, const auto& y, const auto& across,
-                        const auto& down) {
-    const auto a = field(x), b = field(y), c = field(across), d = field(down);
+  const auto take = [&](Place how, const auto& horizontal, const auto& vertical,
+                        const auto& other_horizontal, const auto& other_vertical) {
+    const auto a = field(horizontal), b = field(vertical);
+    const auto c = field(other_horizontal), d = field(other_vertical);
     if (!a || !b || !c || !d) return false;
-    fields.place = place;
+    fields.place = how;
     fields.x = *a;
     fields.y = *b;
     fields.across = *c;
