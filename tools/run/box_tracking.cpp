@@ -210,9 +210,10 @@ std::string summary(const BoxTrackerConfig& config, const BoxTracking& tracking)
   const BoxNoise noise = box_noise(config, learning);
   const auto origin = [](bool is_given) { return is_given ? "given" : "learned"; };
   std::string line = fmt::format(
-      "{} boxes in {} images, confidence {:.2f} ± {:.2f}; speed {:.3f} ({}) and its change {:.4f} "
-      "({}) box scales per image; ",
+      "{} boxes in {} images, confidence {:.2f} ± {:.2f}; usual error of their sizes {:.3f} "
+      "(learned); speed {:.3f} ({}) and its change {:.4f} ({}) box scales per image; ",
       tracking.boxes, tracking.images, learning.confidence.mean(), learning.confidence.deviation(),
+      std::sqrt(noise.usual * noise.size),
       std::sqrt(noise.velocity), origin(config.initial_speed.has_value()),
       std::sqrt(noise.manoeuvre), origin(config.acceleration.has_value()));
   if (tracking.tracks == 0) {

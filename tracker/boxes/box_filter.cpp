@@ -41,14 +41,16 @@ BoxResidual residual(const BoxNoise& noise, const BoxEstimate& estimate, const B
 }
 
 void correct(const BoxNoise& noise, const BoxResidual& residual, BoxEstimate& estimate) {
-  const double error = kLastingErrors * noise.place;
-  const double total = estimate.motion.xx + error;
-  const AxisGain<double> gain{estimate.motion.xx / total, estimate.motion.xv / total, 0.0};
+  const double lasting = kLastingErrors * noise.place;
+  const double error = noise.usual * lasting;
+  const AxisGain<double> gain{estimate.motion.xx / (estimate.motion.xx + error),
+                              estimate.motion.xv / (estimate.motion.xx + lasting), 0.0};
   estimate.box.centre += gain.x * residual.place;
   estimate.velocity += gain.v * residual.place;
   estimate.motion = corrected(estimate.motion, gain, error);
 
-  const double size_gain = estimate.size_variance / (estimate.size_variance + noise.size);
+  const double size_gain =
+      estimate.size_variance / (estimate.size_variance + noise.usual * noise.size);
   estimate.box.size += size_gain * estimate.box.size.cwiseProduct(residual.size);
   estimate.size_variance *= 1.0 - size_gain;
 }

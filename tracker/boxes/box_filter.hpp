@@ -14,6 +14,8 @@ struct BoxNoise {
   double velocity = 0.0;    // of an object seen once, per axis
   double manoeuvre = 0.0;   // of the change of the velocity in one image
   double size_drift = 0.0;  // of the change of width and height in one image
+  double usual = 1.0;       // of a usual box, as a share of `place` and `size`, which have room
+                            // for those of objects that are hidden in part
 };
 
 /// Where a box is, how it moves, and how well that is known: a Kalman filter whose axes share one

@@ -35,15 +35,40 @@ double SpeedStatistics::variance(double assumed) const {
   return (kAssumed * assumed + sum_) / (kAssumed + count_);
 }
 
-void ManoeuvreStatistics::add(double place_distance) {
+void VarianceFactor::add(double distance) {
   constexpr double kMedian = 1.3862943611198906;  // of χ² with 2 degrees of freedom: 2 ln 2
   constexpr double kStep = 2.0;
-  log_sigma_ += (place_distance > kMedian ? kStep : -kStep) / count_;
-  log_sigma_ = std::clamp(log_sigma_, -1.0, 4.0);
+  log_sigma_ += (distance > kMedian ? kStep : -kStep) / count_;
+  log_sigma_ = std::clamp(log_sigma_, least_, greatest_);
   count_ = std::min(count_ + 1.0, 500.0);
 }
 
-double ManoeuvreStatistics::factor() const { return std::exp(2.0 * log_sigma_); }
+double VarianceFactor::factor() const { return std::exp(2.0 * log_sigma_); }
+
+namespace {
+
+/// The variance of the change of a size after so many images.
+double after(double images, const SizeStatistics::Variances& assumed) {
+  return 2.0 * assumed.error + images * assumed.drift;
+}
+
+}  // namespace
+
+void SizeStatistics::add_after_while(const Variances& assumed, const Eigen::Vector2d& change) {
+  after_while_.add(change.squaredNorm() / (after(kWhile, assumed) * after_while_.factor()));
+}
+
+void SizeStatistics::add_after_two(const Variances& assumed, const Eigen::Vector2d& change) {
+  after_two_.add(change.squaredNorm() / (after(2.0 * kWhile, assumed) * after_two_.factor()));
+}
+
+double SizeStatistics::error(const Variances& assumed) const {
+  constexpr double kLeast = 0.05;  // as a share of what was seen after a while
+  const double once = after(kWhile, assumed) * after_while_.factor();
+  const double twice = after(2.0 * kWhile, assumed) * after_two_.factor();
+  const double changed = std::clamp(twice - once, 0.0, (1.0 - kLeast) * once);
+  return 0.5 * (once - changed);
+}
 
 void CoastingStatistics::add_found(int unseen, bool overlaps) {
   for (int i = 1; i <= std::min(unseen, kLongest - 1); ++i) {

@@ -38,20 +38,48 @@ class SpeedStatistics {
   double sum_ = 0.0;  // of squares per axis
 };
 
-/// How much objects manoeuvre, from where they are found again after images without them. There
-/// the residual grows with the process noise, and its median does not mind a wrong pairing: the
-/// noise rises by a step when the squared distance exceeds the median of χ² with 2 degrees of
-/// freedom, and falls by it otherwise (stochastic approximation, Robbins & Monro 1951).
-class ManoeuvreStatistics {
+/// What an assumed variance is to be multiplied by, from squared distances that would be χ² with 2
+/// degrees of freedom if it were right. The median does not mind a wrong pairing: the variance rises
+/// by a step when a distance exceeds the median, and falls by it otherwise (stochastic
+/// approximation, Robbins & Monro 1951).
+class VarianceFactor {
  public:
-  void add(double place_distance);
+  /// @param least, greatest  ln of the factor of the standard deviation
+  VarianceFactor(double least, double greatest) : least_(least), greatest_(greatest) {}
 
-  /// By which the assumed variance is to be multiplied.
+  /// @param distance  squared, by the variance that is in use
+  void add(double distance);
+
   double factor() const;
 
  private:
+  double least_, greatest_;
   double log_sigma_ = 0.0;
   double count_ = 40.0;  // as many are assumed to have agreed
+};
+
+/// How exact the boxes of a detector are, from how much the size of a track has changed after a
+/// while and after twice that. Errors of a detector, lasting ones too, are others by then and add
+/// the same to both; what the object itself has changed by adds twice as much to the second.
+/// Medians do not mind objects that come out from behind others.
+class SizeStatistics {
+ public:
+  static constexpr double kWhile = 8.0;  // images
+
+  /// Variances of the error of a size and of its own change in one image, per axis.
+  struct Variances {
+    double error, drift;
+  };
+
+  /// @param change  of the logarithms of width and height
+  void add_after_while(const Variances& assumed, const Eigen::Vector2d& change);
+  void add_after_two(const Variances& assumed, const Eigen::Vector2d& change);
+
+  /// The variance of the error of a size: what is assumed, corrected by what was seen.
+  double error(const Variances& assumed) const;
+
+ private:
+  VarianceFactor after_while_{-3.0, 2.0}, after_two_{-3.0, 2.0};
 };
 
 /// How long a coasting track can be believed: of the predictions so many images after the last box,

@@ -172,8 +172,32 @@ void reach_out(const BoxTrackerConfig& config, const BoxNoise& noise,
   }
 }
 
+SizeStatistics::Variances assumed_sizes(const BoxTrackerConfig& config) {
+  return {config.size_noise * config.size_noise, config.size_drift * config.size_drift};
+}
+
+/// Compares the seen size with those that were seen before, now and then.
+void learn_size(const SizeStatistics::Variances& assumed, double time, const Eigen::Vector2d& size,
+                SizeStatistics& sizes, BoxTrack& track) {
+  auto& [once, twice] = track.earlier_sizes;
+  if (time < once.time + SizeStatistics::kWhile) return;
+  const SizeSighting now{time, size.array().log().matrix()};
+  const auto is_ago = [&](const SizeSighting& then, double images) {
+    return time == then.time + images;
+  };
+  if (is_ago(once, SizeStatistics::kWhile)) {
+    sizes.add_after_while(assumed, now.log_size - once.log_size);
+  }
+  if (is_ago(twice, 2.0 * SizeStatistics::kWhile)) {
+    sizes.add_after_two(assumed, now.log_size - twice.log_size);
+  }
+  twice = once;
+  once = now;
+}
+
 /// What a box says of a track: about the motion of all, its existence, its place.
-void hit(const BoxNoise& noise, const Candidacy& seen, BoxLearning& learning, BoxTrack& track) {
+void hit(const BoxTrackerConfig& config, const BoxNoise& noise, const Candidacy& seen, double time,
+         BoxLearning& learning, BoxTrack& track) {
   const BoxResidual there = residual(noise, track, seen.box);
   const bool was_confirmed = track.status != TrackStatus::kTentative;
   if (was_confirmed && track.unseen > 0) {
@@ -184,6 +208,7 @@ void hit(const BoxNoise& noise, const Candidacy& seen, BoxLearning& learning, Bo
     if (is_short_gap) learning.manoeuvres.add(there.place_distance);
     if (track.unseen == 0) learning.speed.add(track.velocity / std::sqrt(track.box.area()));
   }
+  if (was_confirmed) learn_size(assumed_sizes(config), time, seen.box.size, learning.sizes, track);
   const double evidence = kMatch + evidence_of_score(seen.score) -
                           kPerDistance * std::min(there.place_distance, kFarthest);
   track.log_odds = std::min(track.log_odds + evidence, kMostCertain);
@@ -245,7 +270,9 @@ BoxNoise box_noise(const BoxTrackerConfig& config, const BoxLearning& learning) 
           .manoeuvre = config.acceleration
                            ? square(*config.acceleration)
                            : square(kAssumedManoeuvre) * learning.manoeuvres.factor(),
-          .size_drift = square(config.size_drift)};
+          .size_drift = square(config.size_drift),
+          .usual = std::min(1.0, learning.sizes.error(assumed_sizes(config)) /
+                                     square(config.size_noise))};
 }
 
 BoxTrackerState step(const BoxTrackerConfig& config, BoxTrackerState state, const BoxScan& scan) {
@@ -285,7 +312,7 @@ BoxTrackerState step(const BoxTrackerConfig& config, BoxTrackerState state, cons
     if (j == kMissed) {
       miss(against, 1, tracks[i]);
     } else {
-      hit(noise, boxes[j], state.learning, tracks[i]);
+      hit(config, noise, boxes[j], scan.time, state.learning, tracks[i]);
     }
     settle(config, state.learning.coasting, tracks[i]);
   }

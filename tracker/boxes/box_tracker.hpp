@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -54,7 +55,8 @@ struct BoxTrackerConfig {
              .maximum = 10.0});
     v.field("size_noise", &BoxTrackerConfig::size_noise,
             {.unit = "1",
-             .meaning = "1-sigma error of width and height, as a share of them",
+             .meaning = "1-sigma error of width and height, as a share of them, with room for objects "
+                        "that are hidden in part; what a usual box errs by is learned",
              .above = 0.0,
              .maximum = 10.0});
     v.field("acceleration", &BoxTrackerConfig::acceleration,
@@ -143,6 +145,12 @@ struct BoxScan {
   std::vector<BoxDetection> detections;
 };
 
+/// The logarithms of a width and height that were seen.
+struct SizeSighting {
+  double time = -std::numeric_limits<double>::infinity();
+  Eigen::Vector2d log_size = Eigen::Vector2d::Zero();
+};
+
 /// One hypothesis of an object.
 struct BoxTrack : BoxEstimate {
   int id = 0;  // counts from 1 in the order of birth
@@ -152,6 +160,7 @@ struct BoxTrack : BoxEstimate {
   HitHistory history = {};
   double log_odds = 0.0;                      // of its existence
   std::optional<std::size_t> detection = {};  // of this image
+  std::array<SizeSighting, 2> earlier_sizes = {};  // one and two whiles ago
   bool is_believed = false;  // while it coasts: its box is more likely to be right than wrong
 
   double existence() const;
@@ -161,7 +170,8 @@ struct BoxTrack : BoxEstimate {
 struct BoxLearning {
   ConfidenceScale confidence;
   SpeedStatistics speed;
-  ManoeuvreStatistics manoeuvres;
+  VarianceFactor manoeuvres{-1.0, 4.0};
+  SizeStatistics sizes;
   CoastingStatistics coasting;
 };
 

@@ -39,17 +39,45 @@ TEST(SpeedStatistics, GoesFromWhatIsAssumedToWhatIsSeen) {
 // Property: residuals of objects that manoeuvre three times as much as the filter assumes lift the
 // noise until the filter's distances have the median that they should have. Their squared distance
 // is that of χ² with 2 degrees of freedom, an exponential of mean 2, over the variance in use.
-TEST(ManoeuvreStatistics, FindsTheNoiseThatExplainsTheResiduals) {
+TEST(VarianceFactor, FindsTheNoiseThatExplainsTheResiduals) {
   for (const double truth : {0.6, 1.0, 3.0, 10.0}) {
     std::mt19937 random(3);
     std::exponential_distribution<double> distance(0.5);
-    ManoeuvreStatistics manoeuvres;
+    VarianceFactor manoeuvres(-1.0, 4.0);
     double mean = 0.0;
     for (int i = 0; i < 8000; ++i) {
       manoeuvres.add(distance(random) * truth * truth / manoeuvres.factor());
       if (i >= 4000) mean += 0.5 * std::log(manoeuvres.factor()) / 4000.0;
     }
     EXPECT_NEAR(mean, std::log(truth), 0.1);
+  }
+}
+
+// Property: the error of a detector's sizes is told from what the objects change by, and one box in ten
+// of an object that is hidden in part does not spoil it.
+TEST(SizeStatistics, TellsErrorsFromWhatObjectsChangeBy) {
+  const SizeStatistics::Variances assumed{0.15 * 0.15, 0.02 * 0.02};
+  EXPECT_NEAR(std::sqrt(SizeStatistics().error(assumed)), 0.15, 1e-12);
+  for (const double error : {0.03, 0.06, 0.12}) {
+    for (const double drift : {0.003, 0.02}) {
+      std::mt19937 random(5);
+      std::normal_distribution<double> normal;
+      std::bernoulli_distribution is_hidden(0.1);
+      SizeStatistics sizes;
+      double mean = 0.0;
+      const auto change = [&](double images) {
+        const double usual = std::sqrt(2.0 * error * error + images * drift * drift);
+        const double sigma = is_hidden(random) ? 5.0 * usual : usual;
+        const double width = sigma * normal(random);
+        return Eigen::Vector2d(width, sigma * normal(random));
+      };
+      for (int i = 0; i < 6000; ++i) {
+        sizes.add_after_while(assumed, change(SizeStatistics::kWhile));
+        sizes.add_after_two(assumed, change(2.0 * SizeStatistics::kWhile));
+        if (i >= 3000) mean += std::sqrt(sizes.error(assumed)) / 3000.0;
+      }
+      EXPECT_NEAR(mean / error, 1.0, 0.25) << error << " " << drift;
+    }
   }
 }
 
