@@ -409,10 +409,9 @@ void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
   const std::vector<Pushed> before = bodies;
   const std::vector<Touch> first_guess = touches;
   if (sweep_contacts(bodies, touches, kFewSweeps)) return;
-  std::vector<Touch> guess = first_guess;
-  const bool has_guess = guess_by_pivoting(before, guess);
   bodies = before;
-  touches = has_guess ? guess : first_guess;
+  touches = first_guess;
+  const bool has_guess = guess_by_pivoting(bodies, touches);
   sweep_contacts(bodies, touches, has_guess ? kFewSweeps : kMostSweeps);
 }
 

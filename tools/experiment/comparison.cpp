@@ -111,8 +111,8 @@ class CellReduction {
         mean_of(values_.at(layout_.predicted(row.filter, subject, row.metric)),
                 info(row.metric).average);
     if (mean.values != row.runs) return;
-    if (shadows_tell(row) && mean.has_heavy_tails && mean.ci95 && row.ci95 &&
-        mean.ci95->high - mean.ci95->low > row.ci95->high - row.ci95->low) {
+    if (mean.has_heavy_tails && mean.ci95 && row.ci95 &&
+        mean.ci95->high - mean.ci95->low > row.ci95->high - row.ci95->low && shadows_tell(row)) {
       return;
     }
     row.predicted = mean.mean;

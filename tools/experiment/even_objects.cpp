@@ -8,13 +8,12 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kFirstScan = 2;   // that counts: see visit_judged()
 constexpr double kSameInterval = 1e-9;  // relative: times are rounded
 
 /// Seen in every scan, at even intervals, with the same error on both axes?
 bool is_even(const LabelledObject& object) {
   const std::vector<ObjectScan>& scans = object.scans;
-  if (scans.size() <= kFirstScan || !scans.front().detection) return false;
+  if (std::ssize(scans) < kFirstDetections || !scans.front().detection) return false;
   const double interval = scans[1].time - scans[0].time;
   const Eigen::Matrix2d& error = scans.front().detection->covariance;
   if (!(interval > 0.0) || error(0, 0) != error(1, 1) || error(0, 1) != 0.0) return false;
@@ -74,12 +73,12 @@ Mean EvenObjects::expected_error(GainFilter<2> filter) const {
     } else {
       step_batch(step, x, v, truth);
     }
-    if (i < kFirstScan) continue;
+    if (i < lanes_.first_judged()) continue;
     lag += square_of_difference(x, truth);
     noise += filter.noise_sigma().squaredNorm();
   }
   const auto objects = static_cast<double>(lanes / 2);
-  const double weight = objects * static_cast<double>(lanes_.scans().size() - kFirstScan);
+  const double weight = objects * static_cast<double>(lanes_.scans().size() - lanes_.first_judged());
   Mean mean;
   mean.add((lag + objects * noise) / weight, weight);
   return mean;

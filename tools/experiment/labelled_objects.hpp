@@ -59,13 +59,14 @@ class LabelledObjectRecorder final : public RunObserver {
 std::vector<LabelledObject> labelled_objects(const Trial& trial, int run, const RunTruth& truth,
                                         const std::vector<ObjectId>& wanted);
 
-/// Goes through the scans of an object and, after each one whose errors count, those from the third
-/// detection on (some filters have no acceleration before), visits it.
+/// Errors count from so many detections on: some filters have no acceleration before.
+inline constexpr int kFirstDetections = 3;
+
+/// Goes through the scans of an object and, after each one whose errors count, visits it.
 /// @param advance  predicts and updates: takes the scan and the time since the one before [s]
 /// @param visit    takes the scan
 template <class Advance, class Visit>
 void visit_judged(const LabelledObject& object, const Advance& advance, const Visit& visit) {
-  constexpr int kFirstDetections = 3;
   int detections = 0;
   double before = object.scans.empty() ? 0.0 : object.scans.front().time;
   for (const ObjectScan& scan : object.scans) {

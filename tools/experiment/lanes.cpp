@@ -7,8 +7,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kFirstDetections = 3;  // see visit_judged()
-
 using Matrix3 = Eigen::Matrix3d;
 
 Matrix3 matrix_of(const AxisCovariance<double>& p) {

@@ -37,7 +37,7 @@ class Lanes {
 
   std::size_t count() const { return count_; }
   const std::vector<Scan>& scans() const { return scans_; }
-  std::size_t first_judged() const { return first_judged_; }  // scan; see visit_judged()
+  std::size_t first_judged() const { return first_judged_; }  // scan
   std::span<const double> truth(std::size_t scan) const { return row(truth_, scan); }
 
   /// The sum of smoothed_errors() of position of all objects: of Rauch, Tung and Striebel (1965),

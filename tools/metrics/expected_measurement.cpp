@@ -150,9 +150,7 @@ bool is_normal(const SensorConfig& sensor, std::span<const ErrorPart> errors) {
 std::optional<Detection> noiseless_detection(const SensorConfig& sensor, const Vec2& place) {
   return std::visit(
       [&](const auto& model) {
-        std::optional<Detection> detection =
-            without_noise(model).measure(place, sensor.site, Vec2::Zero());
-        return detection;
+        return without_noise(model).measure(place, sensor.site, Vec2::Zero());
       },
       sensor.model);
 }

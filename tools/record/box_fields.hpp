@@ -9,8 +9,7 @@ namespace ghtrack {
 
 /// Which fields of a row make a box, by the names that detectors and their tools give them: corner
 /// and size, two corners, or centre and size.
-class BoxFields {
- public:
+struct BoxFields {
   /// Absent if the names are not those of boxes in images.
   static std::optional<BoxFields> find(const std::vector<std::string_view>& names);
 

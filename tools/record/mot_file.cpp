@@ -53,13 +53,10 @@ std::optional<MotRow> row_of(const Values& values, std::size_t count, const MotR
   return row;
 }
 
-/// The row of a line, or what is wrong with it among the findings.
+/// Reports why values make no row.
 /// @param texts  of the values as the line has them
-std::optional<MotRow> checked_row(const Values& values, std::size_t count,
-                                  const std::array<std::string_view, kMostFields>& texts,
-                                  const MotRules& rules, std::int64_t line, Findings& findings) {
-  const std::optional<MotRow> row = row_of(values, count, rules);
-  if (row) return row;
+void add_fault(const Values& values, const std::array<std::string_view, kMostFields>& texts,
+               const MotRules& rules, std::int64_t line, Findings& findings) {
   if (!rules.allows_frame(values[0])) {
     findings.add(line, fmt::format("frame {} is not a whole number from {} to {}",
                                    in_quotes(texts[0]), rules.first_frame, rules.last_frame));
@@ -69,7 +66,6 @@ std::optional<MotRow> checked_row(const Values& values, std::size_t count,
     findings.add(line, fmt::format("width {} and height {} must be above 0", in_quotes(texts[4]),
                                    in_quotes(texts[5])));
   }
-  return std::nullopt;
 }
 
 /// Turns the fields of a line into a row, or reports what is wrong with it.
@@ -95,7 +91,9 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, con
     values[i] = *value;
     texts[i] = fields[i];
   }
-  return checked_row(values, fields.size(), texts, rules, line, findings);
+  const std::optional<MotRow> row = row_of(values, fields.size(), rules);
+  if (!row) add_fault(values, texts, rules, line, findings);
+  return row;
 }
 
 /// The same of a line below a header that names its fields.
@@ -124,12 +122,13 @@ std::optional<MotRow> parse_named_row(const std::vector<std::string_view>& field
   const double confidence = named.confidence ? number(*named.confidence) : 1.0;
   if (!is_sound) return std::nullopt;
   const Values values = {frame, id, box.left, box.top, box.width, box.height, confidence};
-  const std::string width = fmt::format("{:g}", box.width),
-                    height = fmt::format("{:g}", box.height);
-  return checked_row(
-      values, kFewestFields + 1,
-      {fields[named.frame], named.id ? fields[*named.id] : "", "", "", width, height}, rules, line,
-      findings);
+  const std::optional<MotRow> row = row_of(values, kFewestFields + 1, rules);
+  if (row) return row;
+  const std::string width = fmt::format("{:g}", box.width);
+  const std::string height = fmt::format("{:g}", box.height);
+  add_fault(values, {fields[named.frame], named.id ? fields[*named.id] : "", "", "", width, height},
+            rules, line, findings);
+  return std::nullopt;
 }
 
 /// A header in the order of MOTChallenge, whatever its words: "frame,id,bb_left,bb_top,…".
