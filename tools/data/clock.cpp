@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -119,11 +120,14 @@ std::optional<int> take_month(Cursor& cursor) {
   return std::nullopt;
 }
 
-/// 2024-06-11, 2024/06/11 or 20240611.
+/// 2024-06-11, 2024/06/11, 2024.06.11 or 20240611.
 std::optional<std::int64_t> take_year_first(Cursor& cursor) {
   const auto year = cursor.digits(4);
   if (!year) return std::nullopt;
-  const char joint = cursor.take('-') ? '-' : cursor.take('/') ? '/' : '\0';
+  const char joint = cursor.take('-')   ? '-'
+                     : cursor.take('/') ? '/'
+                     : cursor.take('.') ? '.'
+                                        : '\0';
   const auto month = cursor.digits(2);
   if (!month || (joint != '\0' && !cursor.take(joint))) return std::nullopt;
   const auto day = cursor.digits(2);
@@ -179,10 +183,14 @@ std::optional<double> take_time(Cursor& cursor) {
     if (!hour || !ahead.is_at(':')) return std::nullopt;
     cursor = ahead;
   }
-  if (*hour > 24) return std::nullopt;
   const bool colon = cursor.take(':');
   const auto minute = cursor.digits(2);
   if (!minute || *minute > 59) return std::nullopt;
+  if (colon && cursor.is_at('.')) {  // 00:59.9, as Excel shows what is below an hour
+    const auto fraction = cursor.fraction();
+    if (!fraction) return std::nullopt;
+    return *hour * 60.0 + *minute + *fraction;
+  }
   double seconds = 0.0;
   if (colon ? cursor.take(':') : !cursor.at_end()) {
     const auto second = cursor.digits(2);
@@ -201,13 +209,11 @@ std::optional<double> take_time(Cursor& cursor) {
 /// Seconds that the zone is ahead of UTC; 0 without one.
 std::optional<double> take_zone(Cursor& cursor) {
   cursor.take(' ');
-  if (cursor.at_end() || cursor.take('Z') || cursor.take('z') || cursor.take("UTC") ||
-      cursor.take("GMT")) {
-    return 0.0;
-  }
+  if (cursor.at_end() || cursor.take('Z') || cursor.take('z')) return 0.0;
+  if ((cursor.take("UTC") || cursor.take("GMT")) && cursor.at_end()) return 0.0;
   const bool behind = cursor.take('-') || cursor.take("\u2212");
   if (!behind && !cursor.take('+')) return std::nullopt;
-  const auto hours = cursor.digits(2);
+  const auto hours = cursor.one_or_two_digits();
   if (!hours || *hours > 14) return std::nullopt;
   int minutes = 0;
   const bool colon = cursor.take(':');
@@ -254,7 +260,7 @@ std::optional<double> parse_worded_date_time(std::string_view text) {
   if (!day || !cursor.take(' ')) return std::nullopt;
   const auto time = take_time(cursor);
   const std::size_t year_at = text.rfind(' ');
-  if (!time || year_at == std::string_view::npos) return std::nullopt;
+  if (!time || *time > kDay || year_at == std::string_view::npos) return std::nullopt;
   Cursor last(text.substr(year_at + 1));
   const auto year = last.digits(4);
   const auto days = year && last.at_end() ? checked_days(*year, *month, *day) : std::nullopt;
@@ -277,13 +283,14 @@ std::optional<double> parse_date_time(std::string_view text, DateOrder order) {
   if (!days) return parse_worded_date_time(text);
   const double midnight = static_cast<double>(*days) * kDay;
   if (cursor.at_end()) return midnight;
-  if (!cursor.take('T') && !cursor.take('t')) {
+  const bool is_compact = text.size() >= 14 && text.find_first_not_of("0123456789") >= 14;
+  if (!is_compact && !cursor.take('T') && !cursor.take('t')) {
     cursor.take(',');
     if (!cursor.take(' ')) return std::nullopt;
   }
   const auto time = take_time(cursor);
   const auto zone = time ? take_zone(cursor) : std::nullopt;
-  if (!zone || !cursor.at_end()) return std::nullopt;
+  if (!zone || !cursor.at_end() || *time > kDay) return std::nullopt;
   return midnight - *zone + *time;
 }
 
@@ -299,14 +306,51 @@ std::string format_date_time(double seconds) {
   return fmt::format("{}.{:03}Z", text, milliseconds - 1000 * whole);
 }
 
-Clock::Clock(const std::optional<Unit>& unit, std::string_view first, char point,
-             std::optional<double> frame_rate)
-    : point_(point) {
-  const std::optional<double> number = parse_number(first, point);
+namespace {
+
+/// Days that a program counts, and its number of 1970-01-01.
+struct DayCount {
+  std::string_view meaning;
+  double least, most;  // from about 1955 to 2118
+  double epoch;
+};
+constexpr std::array<DayCount, 2> kDayCounts = {
+    {{"days as Excel counts them, as s since 1970", 2e4, 8e4, 25569.0},
+     {"days as MATLAB counts them, as s since 1970", 7.14e5, 7.74e5, 719529.0}}};
+
+const DayCount* day_count(double number) {
+  const auto found =
+      std::find_if(kDayCounts.begin(), kDayCounts.end(), [number](const DayCount& days) {
+        return number >= days.least && number <= days.most;
+      });
+  return found == kDayCounts.end() ? nullptr : &*found;
+}
+
+/// 20240611093015, or 20240611 in a column of dates.
+bool is_compact_date(std::string_view text, bool are_dates) {
+  const bool has_digits = text.find_first_not_of("0123456789") == std::string_view::npos;
+  const bool is_long = text.size() == 14 || (are_dates && text.size() == 8);
+  return has_digits && is_long && (text.starts_with("19") || text.starts_with("20")) &&
+         parse_date_time(text);
+}
+
+}  // namespace
+
+bool is_date_or_day(std::string_view text, char point) {
+  const auto number = parse_number(text, point);
+  return parse_date_time(text) || parse_date_time(text, DateOrder::kMonthFirst) ||
+         (number && day_count(*number) != nullptr);
+}
+
+Clock::Clock(const TimeFormat& format, std::string_view first) : point_(format.point) {
+  const std::optional<double> number = parse_number(first, point_);
+  const bool is_free = !format.unit && !format.frame_rate;
+  const bool is_compact = is_free && is_compact_date(first, format.are_dates);
   if (!number && parse_time_of_day(first)) {
     kind_ = Kind::kTimeOfDay;
     meaning_ = "time of day";
-  } else if (!number && (parse_date_time(first) || parse_date_time(first, DateOrder::kMonthFirst))) {
+  } else if (is_compact || (!number && (parse_date_time(first) ||
+                                        parse_date_time(first, DateOrder::kMonthFirst)))) {
     kind_ = Kind::kDateTime;
     if (!parse_date_time(first)) order_ = DateOrder::kMonthFirst;
     const bool year_first = first.size() >= 4 && first.find_first_not_of("0123456789") >= 4;
@@ -314,15 +358,21 @@ Clock::Clock(const std::optional<Unit>& unit, std::string_view first, char point
                : first.find('/') == std::string_view::npos ? "dates, as s since 1970"
                : order_ == DateOrder::kDayFirst            ? "day/month/year, as s since 1970"
                                                            : "month/day/year, as s since 1970";
-  } else if (frame_rate) {
-    scale_ = Scale::of_parts(*frame_rate);
-    meaning_ = fmt::format("frames at {:g} Hz", *frame_rate);
-  } else if (unit && unit->is_time) {
-    meaning_ = unit->name;
-    scale_ = Scale(unit->scale);
+  } else if (format.frame_rate) {
+    scale_ = Scale::of_parts(*format.frame_rate);
+    meaning_ = fmt::format("frames at {:g} Hz", *format.frame_rate);
+  } else if (format.unit && format.unit->is_time) {
+    meaning_ = format.unit->name;
+    scale_ = Scale(format.unit->scale);
+  } else if (const DayCount* days = number ? day_count(*number) : nullptr;
+             days != nullptr && format.are_dates) {
+    meaning_ = days->meaning;
+    scale_ = Scale(kDay);
+    epoch_ = days->epoch;
   } else {
     // Without a unit, a number can be a time since 1970 only if as seconds it would lie thousands
     // of years ahead.
+    is_unreadable_ = !number;
     const double size = std::abs(number.value_or(0.0));
     constexpr double kEpochSeconds = 1e8;
     const double parts = size > 1e17 ? 1e9 : size > 1e14 ? 1e6 : size > 1e11 ? 1e3 : 1.0;
@@ -340,21 +390,15 @@ std::optional<double> Clock::seconds(std::string_view time) const {
   if (kind_ == Kind::kTimeOfDay) return parse_time_of_day(time);
   const std::optional<double> number = parse_number(time, point_);
   if (!number) return std::nullopt;
-  return scale_(*number);
-}
-
-std::optional<double> Clock::seconds(std::string_view date, std::string_view time) const {
-  if (kind_ != Kind::kTimeOfDay) return seconds(time);
-  const auto days = parse_date(date);
-  const auto of_day = parse_time_of_day(time);
-  if (!days || !of_day) return std::nullopt;
-  return static_cast<double>(*days) * kDay + *of_day;
+  return scale_(*number - epoch_);
 }
 
 std::string_view Clock::expectation() const {
   return kind_ == Kind::kDateTime    ? "a date and time such as 2024-06-11T09:30:15Z"
          : kind_ == Kind::kTimeOfDay ? "a time of day such as 09:30:15"
-                                     : "a finite number";
+         : is_unreadable_
+             ? "a number, or a date and time such as 2024-06-11T09:30:15Z"
+             : "a finite number";
 }
 
 }  // namespace ghtrack

@@ -1,5 +1,7 @@
 #include "tools/data/dialect.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -30,6 +32,53 @@ bool separates(std::string_view line, char separator) {
   }
   return false;
 }
+
+/// Reads digits from the front. @returns how many there were
+std::size_t take_digits(std::string_view& text) {
+  std::size_t count = 0;
+  while (count < text.size() && text[count] >= '0' && text[count] <= '9') ++count;
+  text.remove_prefix(count);
+  return count;
+}
+
+/// "1,234" or "1.234.567,5": how many marks part the thousands of a number; 0 if it is none.
+std::size_t thousands_marks(std::string_view cell, char mark) {
+  if (cell.starts_with('-') || cell.starts_with('+')) cell.remove_prefix(1);
+  if (cell.starts_with('0')) return 0;
+  const std::size_t leading = take_digits(cell);
+  if (leading < 1 || leading > 3) return 0;
+  std::size_t marks = 0;
+  for (; cell.starts_with(mark); ++marks) {
+    cell.remove_prefix(1);
+    if (take_digits(cell) != 3) return 0;
+  }
+  if (!cell.empty() && cell.front() != mark && (cell.front() == '.' || cell.front() == ',')) {
+    cell.remove_prefix(1);
+    take_digits(cell);
+  }
+  return cell.empty() ? marks : 0;
+}
+
+/// What the cells of a table say of the mark before the decimals.
+struct MarkCount {
+  std::size_t decimal = 0;       // can be nothing else: "1,5", "1.234,5"
+  std::size_t either = 0;        // decimals or thousands: "1,234"
+  std::size_t thousands = 0;     // can be nothing else: "1,234,567", "1,234.5"
+
+  void add(std::string_view cell, char mark, char other) {
+    const std::size_t marks = thousands_marks(cell, mark);
+    const bool is_decimal = cell.find(mark) != std::string_view::npos &&
+                            (parse_number(cell, mark) || thousands_marks(cell, other) > 0);
+    const bool parts = marks > 1 || (marks > 0 && cell.find(other) != std::string_view::npos);
+    if (parts) {
+      ++thousands;
+    } else if (marks == 1 && is_decimal) {
+      ++either;
+    } else if (is_decimal) {
+      ++decimal;
+    }
+  }
+};
 
 /// "12,5" and its kin: a number with a comma in it.
 bool has_decimal_comma(std::string_view cell) {
@@ -97,6 +146,37 @@ std::optional<char> agreed_mark(std::span<const std::string> lines) {
   return found == kMarks.end() ? std::nullopt : std::optional(*found);
 }
 
+/// Finds out which mark stands before the decimals and which one parts thousands, if any. A number
+/// such as "1,234" may be either: beside whole numbers in its column it is thousands, since with
+/// decimals 999 would be 999,000.
+void find_decimals(std::span<const std::string> lines, Dialect& dialect) {
+  MarkCount commas, points;
+  std::vector<std::string_view> cells;
+  std::vector<std::string> owned;
+  std::vector<bool> has_either, has_whole;  // of each column
+  for (const std::string& line : lines) {
+    split_cells(line, dialect.separator, cells, owned);
+    has_either.resize(std::max(has_either.size(), cells.size()));
+    has_whole.resize(has_either.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::size_t before = commas.either;
+      commas.add(cells[i], ',', '.');
+      points.add(cells[i], '.', ',');
+      has_either[i] = has_either[i] || commas.either > before;
+      has_whole[i] = has_whole[i] || (parse_whole(cells[i]) && cells[i].find('.') == cells[i].npos);
+    }
+  }
+  bool are_thousands = points.decimal > 0 || commas.thousands > 0;
+  for (std::size_t i = 0; i < has_either.size(); ++i) {
+    are_thousands = are_thousands || (has_either[i] && has_whole[i]);
+  }
+  const bool is_comma = commas.decimal > points.decimal ||
+                        (commas.decimal == 0 && commas.either > 0 && !are_thousands);
+  dialect.point = is_comma ? ',' : '.';
+  const MarkCount& other = is_comma ? points : commas;
+  dialect.has_thousands = other.thousands + other.either > 0;
+}
+
 /// What separates the cells; nothing if there is one column.
 std::optional<char> find_separator(std::span<const std::string> lines) {
   const std::string_view first = trimmed(lines.front());
@@ -127,6 +207,7 @@ std::string Dialect::describe() const {
                      : separator == ' '  ? "blanks"
                                          : "commas";
   if (point == ',') text += ", decimal comma";
+  if (has_thousands) text += fmt::format(", '{}' between thousands", point == ',' ? '.' : ',');
   return text;
 }
 
@@ -144,13 +225,18 @@ Dialect recognise_dialect(std::span<const std::string> lines) {
   if (dialect.separator == ',' && are_blanks_with_decimal_commas(lines)) {
     return {.separator = ' ', .point = ','};
   }
-  std::vector<std::string_view> cells;
-  std::vector<std::string> owned;
-  for (const std::string& line : lines) {
-    split_cells(line, dialect.separator, cells, owned);
-    if (std::any_of(cells.begin(), cells.end(), has_decimal_comma)) dialect.point = ',';
-  }
+  find_decimals(lines, dialect);
   return dialect;
+}
+
+std::optional<double> parse_number(std::string_view text, const Dialect& dialect) {
+  const auto plain = parse_number(text, dialect.point);
+  if (plain || !dialect.has_thousands) return plain;
+  const char mark = dialect.point == ',' ? '.' : ',';
+  if (thousands_marks(text, mark) == 0) return std::nullopt;
+  std::string digits(text);
+  std::erase(digits, mark);
+  return parse_number(digits, dialect.point);
 }
 
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells,

@@ -70,7 +70,7 @@ std::optional<Eigen::Vector2d> FixColumns::sigma(const Table& table) const {
 }
 
 std::string FixColumns::describe(const Table& table) const {
-  const auto name = [&](std::size_t column) { return name_of_column(table, column); };
+  const auto name = [&](std::size_t column) { return name_of_quantity(table, column); };
   std::string text = time_.describe(table) + ", x and y ";
   if (degrees_) {
     text += degrees_->describe(table);

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
+#include <utility>
 
 #include "tools/data/clock.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/record/output_name.hpp"
 #include "tools/record/text_file.hpp"
 #include "tools/record/text_input.hpp"
 
@@ -18,8 +21,37 @@ namespace {
 
 constexpr std::string_view kHeader = "time,lat,lon,track_id\n";
 
-std::string ending_of(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
+/// Rows of a table that was another format, each in the line in which it was found there where that
+/// can be, so that messages name it.
+class Rows {
+ public:
+  void add(std::size_t line, const std::string& row) {
+    for (; line_ < line; ++line_) text_ += '\n';
+    text_ += row;
+    line_ += 1;
+    is_empty_ = false;
+  }
+  bool is_empty() const { return is_empty_; }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_ = std::string(kHeader);
+  std::size_t line_ = 2;  // the next one
+  bool is_empty_ = true;
+};
+
+/// The name of an element without the prefix of its namespace.
+std::string_view local_name(const pugi::xml_node& node) {
+  const std::string_view name = node.name();
+  const std::size_t colon = name.find(':');
+  return colon == std::string_view::npos ? name : name.substr(colon + 1);
+}
+
+template <class Visit>
+void for_each_child(const pugi::xml_node& parent, std::string_view name, const Visit& visit) {
+  for (const pugi::xml_node child : parent.children()) {
+    if (local_name(child) == name) visit(child);
+  }
 }
 
 /// A GPX file: the points of track after track.
@@ -31,21 +63,32 @@ std::string gpx_as_csv(const std::string& path) {
     throw InputError(fmt::format("{}: error: no XML: {} at byte {}", path, parsed.description(),
                                  parsed.offset));
   }
-  std::string csv(kHeader);
+  Rows rows;
   int number = 0;
-  for (const pugi::xml_node track : document.child("gpx").children("trk")) {
-    ++number;
-    for (const pugi::xml_node segment : track.children("trkseg")) {
-      for (const pugi::xml_node point : segment.children("trkpt")) {
-        csv += fmt::format("{},{},{},{}\n", point.child_value("time"),
-                           point.attribute("lat").value(), point.attribute("lon").value(), number);
-      }
-    }
-  }
-  if (csv.size() == kHeader.size()) {
+  std::size_t line = 1;
+  std::ptrdiff_t counted = 0;  // bytes whose lines are
+  const auto add = [&](const pugi::xml_node& point) {
+    const std::ptrdiff_t at = point.offset_debug();
+    line += static_cast<std::size_t>(
+        std::count(text.begin() + counted, text.begin() + std::max(counted, at), '\n'));
+    counted = std::max(counted, at);
+    std::string_view time;
+    for_each_child(point, "time", [&](const pugi::xml_node& node) { time = node.child_value(); });
+    rows.add(line, fmt::format("{},{},{},{}\n", time, point.attribute("lat").value(),
+                               point.attribute("lon").value(), number));
+  };
+  for_each_child(document, "gpx", [&](const pugi::xml_node& gpx) {
+    for_each_child(gpx, "trk", [&](const pugi::xml_node& track) {
+      ++number;
+      for_each_child(track, "trkseg", [&](const pugi::xml_node& segment) {
+        for_each_child(segment, "trkpt", add);
+      });
+    });
+  });
+  if (rows.is_empty()) {
     throw InputError(path + ": error: there are no trkpt in it, the points of tracks of GPX");
   }
-  return csv;
+  return rows.take();
 }
 
 /// The times of a feature: the property `times` (or coordTimes), one per coordinate.
@@ -63,17 +106,37 @@ std::string cell(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+/// As a cell that may hold separators and quotes.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
+  return result + '"';
+}
+
 void append_point(std::string& csv, const nlohmann::json& time, const nlohmann::json& place,
                   const std::string& id) {
-  csv += fmt::format("{},{},{},{}\n", cell(time), cell(place.at(1)), cell(place.at(0)), id);
+  csv += fmt::format("{},{},{},{}\n", cell(time), cell(place.at(1)), cell(place.at(0)), quoted(id));
+}
+
+/// The values of an array of arrays, one after the other; of a plain one, itself.
+nlohmann::json joined(const nlohmann::json& parts) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const nlohmann::json& part : parts) {
+    if (!part.is_array()) return parts;
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
 }
 
 void append_feature(std::string& csv, const nlohmann::json& feature, int number) {
   const nlohmann::json& geometry = feature.at("geometry");
-  const nlohmann::json properties = feature.value("properties", nlohmann::json::object());
+  if (geometry.is_null()) return;  // a feature without a place
+  const auto said = feature.find("properties");
+  const nlohmann::json properties =
+      said != feature.end() && said->is_object() ? *said : nlohmann::json::object();
   std::string id = std::to_string(number);
   for (const char* name : {"track_id", "id", "name"}) {
-    if (properties.is_object() && properties.contains(name)) {
+    if (properties.contains(name)) {
       id = cell(properties.at(name));
       break;
     }
@@ -86,11 +149,15 @@ void append_feature(std::string& csv, const nlohmann::json& feature, int number)
     }
     throw InputError("a point has no property time");
   }
-  if (kind != "LineString") return;
-  const nlohmann::json times = times_of(properties);
-  const nlohmann::json& places = geometry.at("coordinates");
+  if (kind != "LineString" && kind != "MultiLineString") return;
+  nlohmann::json times = times_of(properties);
+  nlohmann::json places = geometry.at("coordinates");
+  if (kind == "MultiLineString") {
+    places = joined(places);
+    times = joined(times);
+  }
   if (!times.is_array() || times.size() != places.size()) {
-    throw InputError("a LineString has no property times with as many values as coordinates");
+    throw InputError("a " + kind + " has no property times with as many values as coordinates");
   }
   for (std::size_t i = 0; i < places.size(); ++i) append_point(csv, times[i], places[i], id);
 }
@@ -159,7 +226,7 @@ std::string base_station_as_csv(const std::string& path) {
 }  // namespace
 
 std::optional<std::string> points_as_csv(const std::string& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_extension(path);
   if (ending == ".gpx") return gpx_as_csv(path);
   if (ending == ".geojson" || ending == ".json") return geojson_as_csv(path);
   if (is_base_station_file(path)) return base_station_as_csv(path);
@@ -167,12 +234,12 @@ std::optional<std::string> points_as_csv(const std::string& path) {
 }
 
 bool is_geographic_file(const std::string& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_extension(path);
   return ending == ".gpx" || ending == ".geojson";
 }
 
 std::string as_geographic_file(const std::string& path, const std::vector<GeoTrack>& tracks) {
-  if (ending_of(path) == ".gpx") {
+  if (lower_extension(path) == ".gpx") {
     std::string text =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<gpx version=\"1.1\" creator=\"ghtrack\" "
         "xmlns=\"http://www.topografix.com/GPX/1/1\">\n";

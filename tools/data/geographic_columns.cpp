@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/data/time_column.hpp"
@@ -12,11 +13,19 @@ namespace {
 // What ships say of their place when they do not know it (ITU-R M.1371).
 constexpr GeoPoint kNowhere{.latitude = 91.0, .longitude = 181.0};
 
-/// Whether a column has whole numbers that no degrees could be.
-bool has_parts_of_degrees(const Table& table, std::size_t column) {
+/// Whether two columns have whole numbers, one of which no degrees could be.
+bool have_parts_of_degrees(const Table& table, std::size_t longitude, std::size_t latitude) {
   constexpr double kLeast = 1e5;
-  const auto first = parse_number(table.first_value(column), table.dialect().point);
-  return first && std::abs(*first) > kLeast && std::trunc(*first) == *first;
+  const char point = table.dialect().point;
+  const auto first = parse_number(table.first_value(longitude), point);
+  const auto second = parse_number(table.first_value(latitude), point);
+  return first && second && std::trunc(*first) == *first && std::trunc(*second) == *second &&
+         std::max(std::abs(*first), std::abs(*second)) > kLeast;
+}
+
+/// Whether a heading says that its numbers are millionths of degrees.
+bool is_in_millionths(const Table& table, std::size_t column) {
+  return table.headings()[column].base.ends_with("e6");
 }
 
 /// Whether a column is named as FIT, the format of Garmin's devices, names a position.
@@ -43,10 +52,17 @@ std::optional<GeographicColumns> GeographicColumns::find(const Table& table,
 GeographicColumns::GeographicColumns(const Table& table, std::size_t longitude,
                                      std::size_t latitude, std::optional<GeoPoint> origin)
     : longitude_(longitude), latitude_(latitude), origin_(origin) {
-  if (!has_parts_of_degrees(table, longitude) || !has_parts_of_degrees(table, latitude)) return;
-  const bool is_fit = is_of_fit(table, longitude) && is_of_fit(table, latitude);
-  unit_ = is_fit ? "semicircles" : "1e-7 degrees";  // the latter as autopilots log them
-  scale_ = Scale::of_parts(is_fit ? 0x1p31 / 180.0 : 1e7);
+  if (!have_parts_of_degrees(table, longitude, latitude)) return;
+  if (is_of_fit(table, longitude) && is_of_fit(table, latitude)) {
+    unit_ = "semicircles";
+    scale_ = Scale::of_parts(0x1p31 / 180.0);
+  } else if (is_in_millionths(table, longitude) && is_in_millionths(table, latitude)) {
+    unit_ = "1e-6 degrees";
+    scale_ = Scale::of_parts(1e6);
+  } else {
+    unit_ = "1e-7 degrees";  // as autopilots log them
+    scale_ = Scale::of_parts(1e7);
+  }
 }
 
 std::optional<Eigen::Vector2d> GeographicColumns::read(Table& table) {

@@ -60,11 +60,13 @@ constexpr std::array<Alias, 16> kAliases = {{
      "data signal x"},
     {Role::kLatitude,
      "lat latitude lat_deg latitude_deg gps_lat location_lat position_lat gps_latitude latitud "
-     "latitudine breite breitengrad geographische_breite"},
+     "latitudine breite breitengrad geographische_breite latitude_e7 lat_e7 late7 latitude_e6 lat_e6 "
+     "late6"},
     {Role::kLongitude,
      "lon long lng longitude lon_deg longitude_deg gps_lon gps_long location_long location_lon "
      "position_long gps_longitude longitud longitudine laenge länge längengrad laengengrad "
-     "geographische_länge"},
+     "geographische_länge longitude_e7 lon_e7 lng_e7 lone7 lnge7 longitude_e6 lon_e6 lng_e6 lone6 "
+     "lnge6"},
     {Role::kPlace,
      "place position location coordinates coords latlng latlon lat_lng lat_lon lat_long lat/lon "
      "lat,lon geo geometry geom the_geom wkt point koordinaten"},
@@ -86,13 +88,14 @@ struct UnitName {
   double scale;
   bool is_time;
 };
-constexpr std::array<UnitName, 16> kUnits = {{
+constexpr std::array<UnitName, 19> kUnits = {{
     {"s sec secs second seconds", 1.0, true},
     {"ms msec millisecond milliseconds", 1e-3, true},
     {"us µs μs usec microsecond microseconds", 1e-6, true},
     {"ns nsec nanosecond nanoseconds", 1e-9, true},
     {"min minute minutes", 60.0, true},
-    {"h hr hour hours", 3600.0, true},
+    {"h hr hrs hour hours", 3600.0, true},
+    {"d day days", 86400.0, true},
     {"m meter meters metre metres", 1.0, false},
     {"mm millimeter millimeters millimetre millimetres", 1e-3, false},
     {"um µm μm micron microns micrometer micrometre", 1e-6, false},
@@ -100,6 +103,8 @@ constexpr std::array<UnitName, 16> kUnits = {{
     {"km kilometer kilometers kilometre kilometres", 1e3, false},
     {"ft foot feet", 0.3048, false},
     {"in inch inches", 0.0254, false},
+    {"yd yard yards", 0.9144, false},
+    {"mi mile miles", 1609.344, false},
     {"nmi", 1852.0, false},
     {"px pixel pixels pix", 1.0, false},
     {"deg ° degree degrees", 1.0, false},
@@ -184,7 +189,9 @@ bool split_unit(std::string_view text, Heading& heading) {
   for (const auto& [open, close] : {std::pair{'(', ')'}, std::pair{'[', ']'}}) {
     const std::size_t at = text.rfind(open);
     if (at == std::string_view::npos || text.back() != close) continue;
-    heading.unit = unit_named(text.substr(at + 1, text.size() - at - 2));
+    const std::string_view inside = text.substr(at + 1, text.size() - at - 2);
+    heading.unit = unit_named(inside);
+    if (!heading.unit) heading.unread = inside;
     heading.base = base_of(text.substr(0, at));
     return true;
   }
@@ -229,8 +236,8 @@ std::string_view to_string(Role role) {
 
 Heading parse_heading(std::string_view cell) {
   const std::string_view text = unquoted(cell);
-  Heading heading{.text = std::string(text), .base = base_of(text), .unit = std::nullopt};
-  if (text.empty() || split_unit(text, heading) || is_alias(heading.base)) return heading;
+  Heading heading{.text = std::string(text), .base = base_of(text)};
+  if (text.empty() || is_alias(heading.base) || split_unit(text, heading)) return heading;
   const std::size_t joint = heading.base.rfind('_');  // time_ms, x_mm
   if (joint == std::string::npos || joint == 0) return heading;
   const std::string stem = heading.base.substr(0, joint);
@@ -257,6 +264,12 @@ std::vector<ColumnChoice> parse_column_choices(std::string_view text) {
       throw ColumnError(
           fmt::format("--columns: {} is not NAME=COLUMN{}", in_quotes(item),
                       role == kRoles.end() ? hint(name, "names", names) : std::string()));
+    }
+    for (const ColumnChoice& known : choices) {
+      if (known.role != role->role) continue;
+      throw ColumnError(fmt::format("--columns: {} is given twice: {} and {}", in_quotes(name),
+                                    in_quotes(known.column),
+                                    in_quotes(unquoted(item.substr(equals + 1)))));
     }
     choices.push_back({role->role, std::string(unquoted(item.substr(equals + 1)))});
   }

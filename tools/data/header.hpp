@@ -66,7 +66,8 @@ class Scale {
 struct Heading {
   std::string text;          // the whole cell
   std::string base;          // without its unit, in lower case, words joined by '_'
-  std::optional<Unit> unit;  // "(mm)", "[ms]", "/ s", "in cm", "_us"
+  std::optional<Unit> unit = std::nullopt;  // "(mm)", "[ms]", "/ s", "in cm", "_us"
+  std::string unread = {};                  // what stands in brackets, if it is no unit
 };
 
 Heading parse_heading(std::string_view cell);

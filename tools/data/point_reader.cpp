@@ -39,7 +39,7 @@ struct PointReader::State {
         velocity_x(kind == PointKind::kTracks ? table.column("vx") : std::nullopt),
         velocity_y(kind == PointKind::kTracks ? table.column("vy") : std::nullopt),
         status(kind == PointKind::kTracks ? table.columns().find(Role::kStatus) : std::nullopt),
-        has_names(!parse_whole(table.first_cell(identity))),
+        has_names(!table.begins_with_numbers(identity)),
         rows([this](PointRow& row) { return read(row); },
              table.can_rewind() ? std::function<void()>([this] { table.rewind(); })
                                 : std::function<void()>()),

@@ -28,11 +28,22 @@ struct Measured {
   std::optional<GeographicColumns> degrees;
 };
 
+/// The column of this name, whatever its unit and the size of its letters.
+std::optional<std::size_t> axis_column(const Table& table, const std::string& name) {
+  if (const auto exact = table.column(name)) return exact;
+  const std::vector<Heading>& headings = table.headings();
+  const auto found = std::find_if(headings.begin(), headings.end(), [&](const Heading& heading) {
+    return heading.base == name;
+  });
+  if (found == headings.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - headings.begin());
+}
+
 /// Columns whose names are a stem with the suffix of each axis; none if there are fewer than two.
 std::vector<std::size_t> by_axis(const Table& table, const std::string& stem) {
   std::vector<std::size_t> columns;
   for (const char* axis : kAxes) {
-    const auto found = table.column(stem + axis);
+    const auto found = axis_column(table, stem + axis);
     if (!found) break;
     columns.push_back(*found);
   }
@@ -45,7 +56,7 @@ std::optional<std::size_t> only_column_left(const Table& table) {
   for (std::size_t i = 0; i < table.headings().size(); ++i) {
     const std::string& name = table.headings()[i].text;
     const bool is_known = table.columns().has_role(i) || name == "g" || name == "h" ||
-                          name == "k" || name == "dt" || name.starts_with("truth");
+                          name == "k" || table.column_with_unit("dt") == i || name.starts_with("truth");
     if (is_known) continue;
     if (left) return std::nullopt;
     left = i;
@@ -97,18 +108,19 @@ struct SeriesReader::State {
         g(table.column("g")),
         h(table.column("h")),
         k(is_filtered(table) ? std::nullopt : table.column("k")),
-        dt(table.column("dt")) {
+        dt_column(table.column_with_unit("dt")),
+        identity(table.columns().find(Role::kIdentity)) {
     Measured measured = find_measured(table);
     degrees = std::move(measured.degrees);
     if (measured.columns.empty() && !degrees) table.required(Role::kZ);
     const bool are_asked = table.columns().is_chosen(Role::kTime) || options.frame_rate;
-    const bool are_there = TimeColumn::is_in(table, options) && !dt;
+    const bool are_there = TimeColumn::is_in(table, options) && !dt_column;
     if (are_asked || (are_there && wanted == SeriesTimes::kIfThere)) times.emplace(table, options);
     table.throw_missing_columns();
     for (const std::size_t column : measured.columns) axes.emplace_back(table, column);
     for (std::size_t axis = 0; axis < dimensions(); ++axis) {
       const std::string suffix = dimensions() == 1 ? "" : std::string("_") + kAxes[axis];
-      if (const auto column = table.column("truth" + suffix)) {
+      if (const auto column = table.column_with_unit("truth" + suffix)) {
         truth.emplace_back(table, *column, degrees ? Scale() : axes[axis].scale);
       }
     }
@@ -188,13 +200,14 @@ struct SeriesReader::State {
       row = {.number = count + 1,
              .line = table.line(),
              .time = times ? times->read(table) : std::nullopt,
-             .dt = optional_number(dt),
+             .dt = step_of_row(),
              .g = optional_number(g),
              .h = optional_number(h),
              .k = optional_number(k),
              .z = degrees ? place() : values(axes),
              .truth = values(truth)};
       if (!table.is_rejected()) {
+        note_object();
         ++count;
         return true;
       }
@@ -204,8 +217,20 @@ struct SeriesReader::State {
     return false;
   }
 
+  void note_object() {
+    if (!identity || has_many_objects) return;
+    if (count == 0) object = table.cell(*identity);
+    has_many_objects = table.cell(*identity) != object;
+  }
+
   std::optional<double> optional_number(const std::optional<std::size_t>& column) {
     return column ? table.number_or_missing(*column) : std::nullopt;
+  }
+
+  std::optional<double> step_of_row() {
+    const auto number = optional_number(dt_column);
+    const auto& unit = dt_column ? table.headings()[*dt_column].unit : std::nullopt;
+    return number && unit && unit->is_time ? Scale(unit->scale)(*number) : number;
   }
 
   /// Absent if one is missing.
@@ -285,10 +310,14 @@ struct SeriesReader::State {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       if (i > 0) text += ", ";
       text += axes.size() == 1 ? "z" : std::string("z") + kAxes[i];
-      text += unit_of(axes[i]) + " from " + name_of_column(table, axes[i].column);
+      text += unit_of(axes[i]) + " from " + name_of_quantity(table, axes[i].column);
     }
     if (degrees) text += "zx and zy " + degrees->describe(table);
     if (missed > 0) text += fmt::format("; {} rows without a measurement", missed);
+    if (has_many_objects) {
+      text += "; rows of several objects by " + name_of_column(table, *identity) +
+              ", taken for one series";
+    }
     if (are_moved) text += "; sorted by time";
     if (times) text += times->doubt(table, step.value_or(0.0));
     return text;
@@ -297,7 +326,7 @@ struct SeriesReader::State {
   bool is_plain() const {
     const Dialect& dialect = table.dialect();
     return dialect.separator == ',' && dialect.point == '.' && !are_moved &&
-           (!times || times->is_plain(table)) && !degrees &&
+           (!times || times->is_plain(table)) && !degrees && !has_many_objects &&
            std::all_of(axes.begin(), axes.end(), [&](const Quantity& axis) {
              const std::string& name = table.headings()[axis.column].text;
              return name == "z" || name == "zx" || name == "zy" || name == "zz";
@@ -308,7 +337,10 @@ struct SeriesReader::State {
   std::optional<TimeColumn> times;
   std::vector<Quantity> axes, truth;
   std::optional<GeographicColumns> degrees;  // instead of axes
-  std::optional<std::size_t> g, h, k, dt;
+  std::optional<std::size_t> g, h, k, dt_column;
+  std::optional<std::size_t> identity;
+  std::string object;  // that the first row is of
+  bool has_many_objects = false;
   bool is_file = false;
   std::int64_t count = 0;  // sound rows that have been read
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "tools/data/clock.hpp"
 #include "tools/data/formats.hpp"
@@ -31,8 +32,8 @@ std::string_view without_comment_sign(std::string_view line) {
   return start == std::string_view::npos ? std::string_view{} : line.substr(start);
 }
 
-bool is_value(std::string_view cell, char point) {
-  return parse_number(cell, point) || parse_date_time(cell) ||
+bool is_value(std::string_view cell, const Dialect& dialect) {
+  return parse_number(cell, dialect) || parse_date_time(cell) ||
          parse_date_time(cell, DateOrder::kMonthFirst) || parse_time_of_day(cell) ||
          parse_place(cell);
 }
@@ -74,12 +75,12 @@ void join_date_and_time(std::vector<std::string_view>& cells) {
   }
 }
 
-/// Whether a row of headings names a time and a place.
+/// Whether a row of headings names a time and what was measured.
 bool is_telling(const std::vector<Heading>& headings, const std::vector<ColumnChoice>& choices) {
   try {
     const ColumnMap map(headings, choices);
     const bool has_time = map.has(Role::kTime) || map.has(Role::kFrame);
-    return has_time && (map.has_plane() || map.has_degrees());
+    return has_time && (map.has_plane() || map.has_degrees() || map.has(Role::kZ));
   } catch (const ColumnError&) {  // a column that is there twice: not for this to say
     return false;
   }
@@ -121,7 +122,14 @@ Table::Table(const std::string& path, const ReadOptions& options)
   try {
     take_sample();
     std::vector<ColumnChoice> choices = parse_column_choices(options_.columns);
-    if (!options_.time_column.empty()) choices.push_back({Role::kTime, options_.time_column});
+    if (!options_.time_column.empty()) {
+      for (const ColumnChoice& choice : choices) {
+        if (choice.role != Role::kTime) continue;
+        throw ColumnError(fmt::format("the times are {} by --columns and {} by --t-column",
+                                      in_quotes(choice.column), in_quotes(options_.time_column)));
+      }
+      choices.push_back({Role::kTime, options_.time_column});
+    }
     take_units_of(choices);
     columns_ = ColumnMap(headings_, choices);
   } catch (const ColumnError& error) {
@@ -173,7 +181,7 @@ void Table::find_first_values() {
     split_row(sample_[row].text);
     if (row == first_row_) first_cells_.assign(cells_.begin(), cells_.end());
     for (std::size_t i = 0; i < std::min(cells_.size(), headings_.size()); ++i) {
-      if (first_values_[i].empty() && is_value(cells_[i], dialect_.point)) {
+      if (first_values_[i].empty() && is_value(cells_[i], dialect_)) {
         first_values_[i] = cells_[i];
       }
     }
@@ -189,8 +197,10 @@ void Table::find_header(const std::string& last_comment) {
     headings_ = headings_in(cells_);
     first_row_ = 1;
     take_title_rows();
+    header_ = sample_[first_row_ - 1].text;
     while (first_row_ < sample_.size() && repeats_header(sample_[first_row_].text)) ++first_row_;
     if (take_units_row()) ++first_row_;
+    if (has_row_names()) headings_.insert(headings_.begin(), Heading{});
     return;
   }
   const std::size_t count = cells_.size();
@@ -207,13 +217,13 @@ void Table::find_header(const std::string& last_comment) {
     return;
   }
   for (std::size_t i = 1; i <= count; ++i) {
-    headings_.push_back({.text = std::to_string(i), .base = "", .unit = std::nullopt});
+    headings_.push_back({.text = std::to_string(i), .base = ""});
   }
 }
 
 bool Table::starts_with_value() const {
-  return is_value(cells_.front(), dialect_.point) ||
-         (cells_.size() > 1 && is_missing(cells_.front()) && is_value(cells_[1], dialect_.point));
+  return is_value(cells_.front(), dialect_) ||
+         (cells_.size() > 1 && is_missing(cells_.front()) && is_value(cells_[1], dialect_));
 }
 
 /// Where the first row says nothing of the columns, a row of headings below it may: above it are
@@ -237,7 +247,7 @@ void Table::take_title_rows() {
   }
 }
 
-/// Whether a row below the header is one again: times and places are named where they are.
+/// Whether a row below the header is one again: what was measured is named where it is.
 bool Table::repeats_header(const std::string& line) {
   std::vector<std::string_view> cells;
   split_cells(line, dialect_.separator, cells, owned_);
@@ -245,11 +255,27 @@ bool Table::repeats_header(const std::string& line) {
   try {
     const ColumnMap map(headings_, {});
     const ColumnMap repeated(headings_in(cells), {});
-    return repeated.has_plane() && repeated.find(Role::kX) == map.find(Role::kX) &&
-           repeated.find(Role::kY) == map.find(Role::kY);
+    const auto is_same = [&](Role role) {
+      return repeated.has(role) && repeated.find(role) == map.find(role);
+    };
+    return (is_same(Role::kX) && is_same(Role::kY)) || (is_same(Role::kTime) && is_same(Role::kZ));
   } catch (const ColumnError&) {
     return false;
   }
+}
+
+/// Whether each row begins with a name in quotes that the header has no heading for, as R writes
+/// tables.
+bool Table::has_row_names() {
+  std::vector<std::string_view> cells;
+  const auto is_named = [&](const SampleLine& line) {
+    split_cells(line.text, dialect_.separator, cells, owned_);
+    return line.text.starts_with('"') && cells.size() == headings_.size() + 1 &&
+           !cells.back().empty();
+  };
+  const auto rows = std::span(sample_).subspan(first_row_);
+  return !rows.empty() && sample_.front().text.starts_with('"') &&
+         std::all_of(rows.begin(), rows.end(), is_named);
 }
 
 /// Takes the row below the header for the units of the columns if it holds nothing but units.
@@ -280,6 +306,15 @@ std::optional<std::size_t> Table::column(std::string_view name) const {
   return static_cast<std::size_t>(found - headings_.begin());
 }
 
+std::optional<std::size_t> Table::column_with_unit(std::string_view name) const {
+  if (const auto exact = column(name)) return exact;
+  const auto found = std::find_if(headings_.begin(), headings_.end(), [&](const Heading& heading) {
+    return heading.unit && heading.base == name;
+  });
+  if (found == headings_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - headings_.begin());
+}
+
 std::size_t Table::required(Role role) {
   if (const auto found = columns_.find(role)) return *found;
   std::string known;
@@ -304,6 +339,15 @@ std::size_t Table::required(Role role) {
 std::string_view Table::first_cell(std::size_t column) const {
   return column < first_cells_.size() ? std::string_view(first_cells_[column])
                                       : std::string_view{};
+}
+
+bool Table::begins_with_numbers(std::size_t column) {
+  for (std::size_t row = first_row_; row < sample_.size(); ++row) {
+    split_row(sample_[row].text);
+    if (cells_.size() != headings_.size()) continue;
+    if (cells_[column].find_first_not_of("+-.0123456789") != std::string_view::npos) return false;
+  }
+  return true;
 }
 
 std::string_view Table::first_value(std::size_t column) const {
@@ -338,6 +382,7 @@ bool Table::next() {
     if (!line) return false;
     if (line->empty() ? headings_.size() != 1 : (is_blank(*line) || is_comment(*line))) continue;
     line_ = *line;
+    if (has_header_ && line_ == header_) continue;  // files that were put together have it again
     split_row(line_);
     if (cells_.size() == headings_.size()) return true;
     reject(fmt::format("this row has {} fields; the {} row has {}", cells_.size(),

@@ -45,11 +45,17 @@ class Table {
   /// The column of exactly this name.
   std::optional<std::size_t> column(std::string_view name) const;
 
+  /// The same, or of this name before a unit, as "dt (ms)".
+  std::optional<std::size_t> column_with_unit(std::string_view name) const;
+
   /// The column of a role that must be there. A missing one is a finding.
   std::size_t required(Role role);
 
   /// The first row of data as text, empty if there is none.
   std::string_view first_cell(std::size_t column) const;
+
+  /// Whether the first rows have nothing but digits, signs and points in a column.
+  bool begins_with_numbers(std::size_t column);
 
   /// The first number, date or time of a column in the first rows; else its first cell.
   std::string_view first_value(std::size_t column) const;
@@ -63,7 +69,7 @@ class Table {
 
   /// The finite number in a cell; absent if it is anything else.
   std::optional<double> number(std::size_t column) const {
-    return parse_number(cells_[column], dialect_.point);
+    return parse_number(cells_[column], dialect_);
   }
 
   /// The same, or absent where the cell says that there is none; anything else is noted.
@@ -105,6 +111,7 @@ class Table {
   void take_title_rows();
   bool take_units_row();
   bool repeats_header(const std::string& line);
+  bool has_row_names();
   std::optional<std::string_view> next_line();
   void split_row(std::string_view line);
   void reject_at(std::int64_t character, const std::string& message);
@@ -118,6 +125,7 @@ class Table {
   std::vector<Heading> headings_;
   ColumnMap columns_;
   bool has_header_ = false;
+  std::string header_;  // the row itself
   std::vector<SampleLine> sample_;  // the first lines that are no comments
   std::size_t first_row_ = 0;       // where in the sample the data begin
   std::size_t at_ = 0;              // in the sample

@@ -2,17 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "tools/record/errors.hpp"
 
 namespace ghtrack {
 
 namespace {
 
+constexpr double kDay = 86400.0;
+
 /// The column of the times; one of dates alone will do.
 std::optional<std::size_t> time_column(const Table& table) {
   if (const auto time = table.columns().find(Role::kTime)) return time;
   const auto date = table.columns().find(Role::kDate);
-  return date && parse_date_time(table.first_value(*date)) ? date : std::nullopt;
+  const char point = table.dialect().point;
+  return date && is_date_or_day(table.first_value(*date), point) ? date : std::nullopt;
 }
 
 }  // namespace
@@ -34,23 +39,48 @@ TimeColumn::TimeColumn(Table& table, const ReadOptions& options) {
         table.name(), in_quotes(table.headings()[*frame].text)));
   }
   column_ = frames ? *frame : time ? *time : table.required(Role::kTime);
-  if (const auto date = columns.find(Role::kDate); date && *date != column_) date_ = date;
   const std::size_t width = table.headings().size();
-  clock_.emplace(column_ < width ? table.headings()[column_].unit : std::nullopt,
-                 table.first_value(column_), table.dialect().point,
-                 frames || is_chosen ? options.frame_rate : std::nullopt);
+  clock_.emplace(
+      TimeFormat{.unit = column_ < width ? table.headings()[column_].unit : std::nullopt,
+                 .frame_rate = frames || is_chosen ? options.frame_rate : std::nullopt,
+                 .are_dates = columns.find(Role::kDate) == column_,
+                 .point = table.dialect().point},
+      table.first_value(column_));
+  const auto date = columns.find(Role::kDate);
+  if (!date || *date == column_ || !clock_->is_time_of_day()) return;
+  date_ = date;
+  const std::string_view first = table.first_value(*date);
+  if (!parse_date(first) && parse_date(first, DateOrder::kMonthFirst)) {
+    order_ = DateOrder::kMonthFirst;
+  }
 }
 
-std::optional<double> TimeColumn::read(Table& table) const {
-  const auto time = date_ ? clock_->seconds(table.cell(*date_), table.cell(column_))
-                          : clock_->seconds(table.cell(column_));
-  if (!time) table.reject_cell(column_, std::string(clock_->expectation()));
-  return time;
+std::optional<double> TimeColumn::read(Table& table) {
+  const auto time = clock_->seconds(table.cell(column_));
+  if (!time) {
+    table.reject_cell(column_, std::string(clock_->expectation()));
+    return std::nullopt;
+  }
+  if (!date_) return clock_->is_time_of_day() ? of_days(*time, table.line()) : *time;
+  const auto day = parse_date(table.cell(*date_), order_);
+  if (day) return static_cast<double>(*day) * kDay + *time;
+  table.reject_cell(*date_, "a date such as 2024-06-11");
+  return std::nullopt;
+}
+
+/// A time of day goes on after midnight; a step of more than half a day back is one.
+double TimeColumn::of_days(double time, std::int64_t line) {
+  if (line <= line_) midnights_ = 0;  // the table is read once more
+  const double step = time - of_day_;
+  if (line > line_ && line_ > 0 && std::abs(step) > 0.5 * kDay) midnights_ += step < 0.0 ? 1 : -1;
+  line_ = line;
+  of_day_ = time;
+  return midnights_ * kDay + time;
 }
 
 std::string TimeColumn::describe(const Table& table) const {
   std::string text =
-      fmt::format("t ({}) from {}", clock_->meaning(), name_of_column(table, column_));
+      fmt::format("t ({}) from {}", clock_->meaning(), name_of_quantity(table, column_));
   if (date_) text += " on " + name_of_column(table, *date_);
   return text;
 }
@@ -73,6 +103,13 @@ bool TimeColumn::is_plain(const Table& table) const {
 std::string name_of_column(const Table& table, std::size_t column) {
   const std::string& text = table.headings()[column].text;
   return table.has_header() ? in_quotes(text) : "column " + text;
+}
+
+std::string name_of_quantity(const Table& table, std::size_t column) {
+  const Heading& heading = table.headings()[column];
+  std::string name = name_of_column(table, column);
+  if (!heading.unread.empty()) name += fmt::format(" (no unit is {})", in_quotes(heading.unread));
+  return name;
 }
 
 }  // namespace ghtrack

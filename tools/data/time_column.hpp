@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -19,7 +20,7 @@ class TimeColumn {
   TimeColumn(Table& table, const ReadOptions& options);
 
   /// The time of the present row [s]; absent if it was rejected.
-  std::optional<double> read(Table& table) const;
+  std::optional<double> read(Table& table);
 
   /// "t (ms) from 'time'".
   std::string describe(const Table& table) const;
@@ -32,12 +33,21 @@ class TimeColumn {
   bool is_plain(const Table& table) const;
 
  private:
+  double of_days(double time, std::int64_t line);
+
   std::size_t column_ = 0;
   std::optional<std::size_t> date_;  // of a time of day
+  DateOrder order_ = DateOrder::kDayFirst;
+  int midnights_ = 0;      // passed so far
+  double of_day_ = 0.0;    // of the row before [s]
+  std::int64_t line_ = 0;  // of the same
   std::optional<Clock> clock_;
 };
 
 /// What a column is called in remarks: 'East (m)', or column 3.
 std::string name_of_column(const Table& table, std::size_t column);
+
+/// The same, with a remark where its brackets hold no unit that is known.
+std::string name_of_quantity(const Table& table, std::size_t column);
 
 }  // namespace ghtrack

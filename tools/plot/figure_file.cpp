@@ -13,6 +13,7 @@
 #include "tools/plot/panel_painter.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/record/output_name.hpp"
 
 namespace ghtrack::plot {
 namespace {
@@ -120,14 +121,14 @@ std::optional<Style> style_named(const std::string& name) {
 }
 
 bool is_figure_file(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
+  const std::string ending = lower_extension(path);
   return ending == ".svg" || ending == ".pdf" || ending == ".png";
 }
 
 void write_figure(const std::filesystem::path& path, const Figure& figure, const Style& style) {
   const Layout layout(figure, style);
   const double height = layout.height();
-  const std::string ending = path.extension().string();
+  const std::string ending = lower_extension(path);
   std::string bytes;
   const bool is_png = ending == ".png";
   const double scale = is_png ? style.pixels_per_point : 1.0;

@@ -96,7 +96,15 @@ std::optional<MotRow> parse_row(const std::vector<std::string_view>& fields, con
   return row;
 }
 
-/// The same of a line below a header that names its fields.
+/// Whether a field says that there is no value.
+bool is_absent(std::string_view field) {
+  constexpr std::array<std::string_view, 8> kWords = {"",   "nan", "NaN",  "NAN",
+                                                      "NA", "N/A", "None", "null"};
+  return std::find(kWords.begin(), kWords.end(), field) != kWords.end();
+}
+
+/// The same of a line below a header that names its fields. One without a box is an image in which
+/// nothing was found.
 std::optional<MotRow> parse_named_row(const std::vector<std::string_view>& fields,
                                       const BoxFields& named, const MotRules& rules,
                                       std::int64_t line, Findings& findings) {
@@ -105,9 +113,13 @@ std::optional<MotRow> parse_named_row(const std::vector<std::string_view>& field
                                    named.named));
     return std::nullopt;
   }
+  for (const std::size_t field : {named.x, named.y, named.across, named.down}) {
+    if (is_absent(fields[field])) return std::nullopt;
+  }
   bool is_sound = true;
   const auto number = [&](std::size_t field) {
-    const auto value = parse_number(fields[field]);
+    auto value = parse_number(fields[field]);
+    if (!value) value = parse_number(fields[field], ',');  // between semicolons
     if (!value && is_sound) {
       findings.add(line, fmt::format("{} in field {} is not a finite number",
                                      in_quotes(fields[field]), field + 1));
@@ -119,7 +131,8 @@ std::optional<MotRow> parse_named_row(const std::vector<std::string_view>& field
   const double id = named.id ? number(*named.id) : -1.0;
   const BoxFields::Box box =
       named.box(number(named.x), number(named.y), number(named.across), number(named.down));
-  const double confidence = named.confidence ? number(*named.confidence) : 1.0;
+  const bool has_confidence = named.confidence && !is_absent(fields[*named.confidence]);
+  const double confidence = has_confidence ? number(*named.confidence) : 1.0;
   if (!is_sound) return std::nullopt;
   const Values values = {frame, id, box.left, box.top, box.width, box.height, confidence};
   const std::optional<MotRow> row = row_of(values, kFewestFields + 1, rules);
@@ -129,6 +142,11 @@ std::optional<MotRow> parse_named_row(const std::vector<std::string_view>& field
   add_fault(values, {fields[named.frame], named.id ? fields[*named.id] : "", "", "", width, height},
             rules, line, findings);
   return std::nullopt;
+}
+
+bool is_blank_or_comment(std::string_view line) {
+  const std::size_t start = line.find_first_not_of(" \t\r");
+  return start == std::string_view::npos || line[start] == '#';
 }
 
 /// A header in the order of MOTChallenge, whatever its words: "frame,id,bb_left,bb_top,…".
@@ -152,8 +170,9 @@ class MotParser {
       if (first_ == 0) first_ = number;
       if (const auto row = row_of(values, count, rules_)) return row;
     }
-    if (line.find_first_not_of(" \t") == std::string_view::npos) return std::nullopt;
+    if (is_blank_or_comment(line)) return std::nullopt;
     split_fields(line, fields_, owned_);
+    if (named_ && fields_.size() == named_->named && BoxFields::find(fields_)) return std::nullopt;
     if (first_ == 0) first_ = number;
     if (number == first_) {
       named_ = BoxFields::find(fields_);
@@ -271,11 +290,12 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::ifstream file(path, std::ios::binary);
   std::string line;
-  while (line.find_first_not_of(" \t\r") == std::string::npos) {
+  std::string_view text;
+  while (is_blank_or_comment(text)) {
     if (!std::getline(file, line)) return false;
+    text = line;
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   }
-  std::string_view text = line;
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   if (text.ends_with('\r')) text.remove_suffix(1);
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cctype>
 #include <charconv>
 #include <string>
 #include <system_error>
@@ -49,6 +50,12 @@ std::optional<int> own_descriptor(const fs::path& name, int of_dash) {
     path = next_link(*path);
   }
   return std::nullopt;
+}
+
+std::string lower_extension(const fs::path& name) {
+  std::string text = name.extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 fs::path followed(const fs::path& name) {

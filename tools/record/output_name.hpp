@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace ghtrack {
 
@@ -11,6 +12,9 @@ namespace ghtrack {
 /// position that stands, or one that has no name any more.
 /// @param of_dash  the descriptor that `-` stands for
 std::optional<int> own_descriptor(const std::filesystem::path& name, int of_dash);
+
+/// The extension of a name in lower case: ".svg" of "Path.SVG".
+std::string lower_extension(const std::filesystem::path& name);
 
 /// The file that is meant by a name: symbolic links at its end are followed, also to a file that
 /// is not there yet.

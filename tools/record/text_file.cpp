@@ -229,11 +229,13 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields,
   // Views into `owned` stay valid because it never grows beyond this.
   const auto quotes = static_cast<std::size_t>(std::count(line.begin(), line.end(), '"'));
   owned.reserve(quotes);
-  const char separator = line.find(',') == std::string_view::npos ? '\t' : ',';
+  const char separator = line.find(';') != std::string_view::npos   ? ';'
+                         : line.find(',') != std::string_view::npos ? ','
+                                                                    : '\t';
   while (true) {
     const std::size_t start =
         quotes == 0 ? std::string_view::npos
-                    : line.find_first_not_of(separator == ',' ? " \t" : " ");
+                    : line.find_first_not_of(separator == '\t' ? " " : " \t");
     std::string_view field;
     if (start != std::string_view::npos && line[start] == '"') {
       line.remove_prefix(start);

@@ -49,6 +49,7 @@ TextInput::TextInput(std::string path, std::function<void()> pause)
     fail("this is no regular file");
   }
   can_rewind_ = S_ISREG(about.st_mode) && ::lseek(descriptor_, 0, SEEK_CUR) == 0;
+  is_pipe_ = S_ISFIFO(about.st_mode);
   buffer_.resize(kBlock);
 }
 
@@ -65,7 +66,7 @@ TextInput::~TextInput() {
 std::optional<std::string_view> TextInput::next() {
   std::size_t searched = begin_;
   for (;;) {
-    const void* found = std::memchr(buffer_.data() + searched, '\n', end_ - searched);
+    const void* found = std::memchr(buffer_.data() + searched, line_end_, end_ - searched);
     std::size_t stop = end_;
     if (found != nullptr) {
       stop = static_cast<std::size_t>(static_cast<const char*>(found) - buffer_.data());
@@ -113,9 +114,10 @@ bool TextInput::fill() {
     if (got > 0) {
       end_ += static_cast<std::size_t>(got);
       is_plain_ = all_plain(buffer_.data(), end_);
+      if (line_number_ == 0) find_line_end();
       return true;
     }
-    if (got == 0 && (can_rewind_ || line_number_ > 0 || end_ > 0)) return false;
+    if (got == 0 && (!is_pipe_ || line_number_ > 0 || end_ > 0)) return false;
     if (got < 0 && errno != EINTR && errno != EAGAIN) {
       fail("cannot read: " + std::generic_category().message(errno));
     }
@@ -127,6 +129,14 @@ bool TextInput::fill() {
       wait_for_bytes();
     }
   }
+}
+
+/// Some programs still end lines with CR alone, as Macs once did.
+void TextInput::find_line_end() {
+  const std::string_view read(buffer_.data(), end_);
+  const std::size_t at = read.find('\r');
+  const bool is_alone = at != std::string_view::npos && at + 1 < read.size();
+  line_end_ = is_alone && read.find('\n') == std::string_view::npos ? '\r' : '\n';
 }
 
 void TextInput::wait_for_bytes() const {

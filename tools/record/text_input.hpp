@@ -42,6 +42,7 @@ class TextInput {
 
  private:
   bool fill();
+  void find_line_end();
   void check(std::string_view line) const;
   void wait_for_bytes() const;
   [[noreturn]] void fail(const std::string& reason) const;
@@ -50,10 +51,12 @@ class TextInput {
   std::function<void()> pause_;
   int descriptor_ = -1;
   bool can_rewind_ = false;
+  bool is_pipe_ = false;
   std::string buffer_;
   std::size_t begin_ = 0;  // of what has not been given out
   std::size_t end_ = 0;    // of what has been read
   bool at_end_ = false;
+  char line_end_ = '\n';
   bool is_plain_ = true;  // all bytes in the buffer are printable ASCII, tabs or line ends
   std::int64_t line_number_ = 0;
 };

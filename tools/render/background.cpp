@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tools/record/output_name.hpp"
 #include "tools/render/codecs.hpp"
 #include "tools/render/palette.hpp"
 
@@ -21,12 +21,6 @@ namespace {
 constexpr double kUsualRate = 30.0;  // [Hz]
 constexpr double kLeastRate = 1.0, kMostRate = 240.0;
 constexpr double kTolerance = 0.1;  // how early a picture may be shown, in periods
-
-std::string lower_extension(const fs::path& path) {
-  std::string text = path.extension().string();
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 bool is_picture(const fs::path& path) {
   constexpr std::array<std::string_view, 8> kExtensions = {".png", ".jpg", ".jpeg", ".bmp",

@@ -17,7 +17,8 @@ TEST(DateTime, MeansTheSameInEveryDialect) {
         "2024-06-11T02:00:15-0530", "2024/06/11 07:30:15.000", "20240611T073015Z",
         "2024-06-11T07:30:15,0UTC", "2024-06-11T16:30:15+09", "11.06.2024 07:30:15",
         "11/06/2024 07:30:15", "11.6.2024 7:30:15 AM", "11-Jun-2024 07:30:15.000",
-        "Tue Jun 11 09:30:15 GMT+02:00 2024", "Jun 11 07:30:15 2024"}) {
+        "Tue Jun 11 09:30:15 GMT+02:00 2024", "Jun 11 07:30:15 2024", "20240611073015",
+        "2024.06.11 07:30:15", "2024-06-11T09:30:15+2", "2024-06-11 09:30:15 UTC+02:00"}) {
     SCOPED_TRACE(text);
     ASSERT_TRUE(parse_date_time(text).has_value());
     EXPECT_EQ(*parse_date_time(text), kSeconds);
@@ -45,7 +46,7 @@ TEST(DateTime, RefusesWhatIsNone) {
 double read(const char* unit, const char* time, std::optional<double> rate = {}) {
   std::optional<Unit> of_column;
   if (*unit != '\0') of_column = parse_heading("t (" + std::string(unit) + ")").unit;
-  return Clock(of_column, time, '.', rate).seconds(time).value();
+  return Clock({.unit = of_column, .frame_rate = rate}, time).seconds(time).value();
 }
 
 // Derived: by the unit, or by a size that no other unit could have.
@@ -60,6 +61,23 @@ TEST(Clock, TurnsEveryUnitIntoSeconds) {
   EXPECT_NEAR(read("", "1718091015250000000"), 1718091015.25, 5e-7);  // two steps of doubles
   EXPECT_EQ(read("", "45", 30.0), 1.5);
   EXPECT_EQ(read("", "01:02:03.5"), 3723.5);
+  EXPECT_EQ(read("", "25:00:01"), 90001.0);  // of a stopwatch
+  EXPECT_EQ(read("", "01:02.5"), 62.5);
+  EXPECT_EQ(read("days", "0.5"), 43200.0);
+}
+
+// Derived: 2024-06-11 is day 45454 of Excel and day 739414 of MATLAB; without dashes it is a date only
+// where the column says so, or with its time.
+TEST(Clock, CountsDaysAsProgramsDo) {
+  constexpr double kMidnight = 19885.0 * 86400.0;
+  const auto of_dates = [](const char* text) {
+    return Clock({.are_dates = true}, text).seconds(text).value();
+  };
+  EXPECT_EQ(of_dates("45454.25"), kMidnight + 21600.0);
+  EXPECT_EQ(of_dates("739414.5"), kMidnight + 43200.0);
+  EXPECT_EQ(of_dates("20240611"), kMidnight);
+  EXPECT_EQ(read("", "20240611"), 20240611.0);
+  EXPECT_EQ(read("", "20240611000001"), kMidnight + 1.0);
 }
 
 // Derived: a minute of latitude is a nautical mile of 1852 m to half a percent; the way back ends

@@ -8,6 +8,7 @@
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/data/point_reader.hpp"
 #include "tools/data/scan_reader.hpp"
+#include "tools/record/errors.hpp"
 
 namespace ghtrack {
 namespace {
@@ -338,6 +339,56 @@ TEST(PointReader, TakesWordsForIdentities) {
   EXPECT_EQ(reader.next().size(), 2U);
   EXPECT_EQ(reader.name_of(2), "3c4d");
   EXPECT_EQ(reader.next().at(0).id, 1);
+}
+
+// Property: what looks like a number at first may be the address of an aircraft.
+TEST(PointReader, TakesAddressesForIdentities) {
+  const ScratchFolder folder;
+  PointReader reader(
+      folder.write("in.csv", "t,icao24,x,y\n0,400123,0,0\n0,4e5,1,1\n0,400000,2,2\n").string(),
+      PointKind::kTruth);
+  EXPECT_EQ(reader.next().size(), 3U);
+  EXPECT_EQ(reader.name_of(2), "4e5");
+}
+
+// Property: GeoJSON with names, nothing and several lines in a feature, and GPX with a prefix in
+// capitals, are read; a point without a time is named by its line.
+TEST(PointReader, ReadsEveryWayOfWritingTracks) {
+  const ScratchFolder folder;
+  PointReader json(
+      folder
+          .write("in.geojson",
+                 R"({"type":"FeatureCollection","features":[
+                    {"type":"Feature","properties":{"name":"Smith, \"J\"","times":[0,1]},
+                     "geometry":{"type":"LineString","coordinates":[[8,51],[8.1,51]]}},
+                    {"type":"Feature","properties":null,"geometry":null},
+                    {"type":"Feature","properties":{"times":[[0,1],[2]]},"geometry":
+                     {"type":"MultiLineString","coordinates":[[[9,51],[9.1,51]],[[9.2,51]]]}}]})")
+          .string(),
+      PointKind::kTruth);
+  EXPECT_EQ(json.next().size(), 2U);
+  EXPECT_EQ(json.next().size(), 2U);
+  EXPECT_EQ(json.next().size(), 1U);
+  EXPECT_EQ(json.name_of(1), "Smith, \"J\"");
+  const std::string gpx =
+      "<?xml version=\"1.0\"?>\n<g:gpx xmlns:g=\"x\">\n<g:trk><g:trkseg>\n"
+      "<g:trkpt lat=\"51\" lon=\"8\"><g:time>2024-06-11T09:30:15Z</g:time></g:trkpt>\n"
+      "<g:trkpt lat=\"51.1\" lon=\"8\">TIME</g:trkpt>\n</g:trkseg></g:trk></g:gpx>\n";
+  const auto with = [&](const std::string& time) {
+    std::string text = gpx;
+    text.replace(text.find("TIME"), 4, time);
+    return folder.write("IN.GPX", text).string();
+  };
+  PointReader tracks(with("<g:time>2024-06-11T09:30:16Z</g:time>"), PointKind::kTruth);
+  EXPECT_EQ(tracks.next().size(), 1U);
+  EXPECT_EQ(tracks.next().size(), 1U);
+  const std::string timeless = with("");
+  try {
+    PointReader(timeless, PointKind::kTruth);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("IN.GPX:5:1: error: '' in column 'time'"));
+  }
 }
 
 // Property: defects of identities are named.

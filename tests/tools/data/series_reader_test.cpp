@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/tools/record/message_of.hpp"
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/data/scan_reader.hpp"
 #include "tools/data/time_order.hpp"
@@ -53,6 +54,44 @@ TEST(SeriesReader, FindsWhatIsMeasured) {
   EXPECT_EQ(rows_of("sensor,t,bearing (deg)\na,0,350\na,1,355\n"), "0:350 1:355 ");
   EXPECT_EQ(rows_of("t,a,b\n0,5,7\n1,6,8\n", {.columns = "z=b"}), "0:7 1:8 ");
   EXPECT_EQ(rows_of("date,steps\n1970-01-01,5\n1970-01-02,6\n"), "0:5 86400:6 ");
+}
+
+// Property: units and capitals change no column's meaning.
+TEST(SeriesReader, KnowsColumnsWithUnits) {
+  EXPECT_EQ(rows_of("t (s),x (mm),y (mm),z (mm)\n0,1000,2000,3000\n1,2000,3000,4000\n"),
+            "0:1,2,3 1:2,3,4 ");
+  EXPECT_EQ(rows_of("t,X,Y,Z\n0,1,2,3\n1,2,3,4\n"), "0:1,2,3 1:2,3,4 ");
+  EXPECT_EQ(rows_of("time (h),x (km)\n0,1\n1,2\n"), "0:1000 3600:2000 ");
+  const ScratchFolder folder;
+  SeriesReader steps(folder.write("in.csv", "z (mm),dt (ms),truth (mm)\n1000,10,1500\n").string());
+  const auto row = steps.next();
+  ASSERT_TRUE(row && row->dt && row->truth);
+  EXPECT_EQ(*row->dt, 0.01);
+  EXPECT_EQ((*row->truth)[0], 1.5);
+  SeriesReader unknown(folder.write("b.csv", "t,height (furlongs)\n0,1\n1,2\n").string());
+  EXPECT_THAT(unknown.understood(), HasSubstr("'height (furlongs)' (no unit is 'furlongs')"));
+}
+
+// Property: titles, headers that come again and rows of several objects do not go unnoticed.
+TEST(SeriesReader, PassesOverTitlesAndRepeatedHeaders) {
+  EXPECT_EQ(rows_of("My experiment\nt,z\n0,1\n1,2\n"), "0:1 1:2 ");
+  EXPECT_EQ(rows_of("sep=;\nt;z\n0;1\n1;1,5\n"), "0:1 1:1.5 ");
+  EXPECT_EQ(rows_of("t,z\nt,z\n0,1\nt,z\n1,2\n"), "0:1 1:2 ");
+  const ScratchFolder folder;
+  SeriesReader named(folder.write("b.csv", "t,mmsi,z\n0,a,1\n1,b,2\n").string());
+  EXPECT_THAT(named.understood(), HasSubstr("rows of several objects by 'mmsi'"));
+}
+
+// Property: times of day go on after midnight, also when they are read again; dates go by the order
+// that the first one shows, and whoever is wrong is named.
+TEST(SeriesReader, GoesOnAfterMidnight) {
+  EXPECT_EQ(rows_of("time,z\n23:59:58,0\n23:59:59,1\n00:00:00,2\n00:00:01,3\n"),
+            "86398:0 86399:1 86400:2 86401:3 ");
+  const std::string american = "date,time,z\n06/13/1970,23:59:59,1\n06/14/1970,00:00:00,2\n";
+  EXPECT_EQ(rows_of(american), "1.41696e+07:1 1.41696e+07:2 ");
+  EXPECT_EQ(message_of(american + "13/06/1970,00:00:01,3\n",
+                       [](const auto& path) { SeriesReader(path.string()); }),
+            "in.csv:4:1: error: '13/06/1970' in column 'date' is not a date such as 2024-06-11");
 }
 
 // Derived: times that are not asked for are used only where nothing else says how rows are spaced.

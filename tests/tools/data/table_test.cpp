@@ -66,6 +66,43 @@ TEST(Table, ReadsSeriesAndQuotedCells) {
   EXPECT_EQ(cells_of("name,x\n\"a, \"\"b\"\"\",2\n"), "a, \"b\"|2.00\n");
 }
 
+/// Of two rows of one column, as they are read.
+std::string values_of(const std::string& first, const std::string& second) {
+  const ScratchFolder folder;
+  Table table(folder.write("in.csv", "t,v\n0," + first + "\n1," + second + "\n").string());
+  std::string text;
+  while (table.next()) {
+    const auto number = table.number(1);
+    text += number ? std::to_string(*number) + " " : "- ";
+  }
+  return text;
+}
+
+// Property: whether a comma is before decimals or between thousands, the other numbers tell; a text
+// with one says nothing.
+TEST(Table, TellsDecimalsFromThousands) {
+  EXPECT_EQ(values_of("\"1,234\"", "999"), "1234.000000 999.000000 ");
+  EXPECT_EQ(values_of("\"1,234.5\"", "\"1,235\""), "1234.500000 1235.000000 ");
+  EXPECT_EQ(values_of("\"1,234,567\"", "12"), "1234567.000000 12.000000 ");
+  EXPECT_EQ(values_of("\"1,234\"", "\"1,5\""), "1.234000 1.500000 ");
+  EXPECT_EQ(values_of("\"0,123\"", "\"0,125\""), "0.123000 0.125000 ");
+  EXPECT_EQ(values_of("\"1.234,5\"", "\"1.235,5\""), "1234.500000 1235.500000 ");
+  EXPECT_EQ(values_of("\"1,2\"", "1.5"), "- 1.500000 ");
+  EXPECT_EQ(cells_of("t\tv\n0\t1,234.5\n1\t12\n"), "0.00|1234\n1.00|12.0\n");
+  EXPECT_EQ(cells_of("t;v;zone\n0;1,5;1.2.3\n1;1.234,5;\n"), "0.00|1.50|1.2.3\n1.00|1234|\n");
+}
+
+// Derived: R names its rows in a column that has no heading.
+TEST(Table, ReadsNamesOfRows) {
+  EXPECT_EQ(cells_of("\"t\" \"x\"\n\"1\" 0 5\n\"2\" 1 6\n"), "1.00|0.00|5.00\n2.00|1.00|6.00\n");
+  EXPECT_EQ(cells_of("t,x\n0,5,7\n"), "");  // that is one field too many
+}
+
+// Derived: lines that end with CR alone are lines, too.
+TEST(Table, ReadsLinesOfOldMacs) {
+  EXPECT_EQ(cells_of("t,x\r0,5\r1,6\r"), "0.00|5.00\n1.00|6.00\n");
+}
+
 // Derived: a row of units under the header belongs to it.
 TEST(Table, TakesARowOfUnits) {
   const ScratchFolder folder;

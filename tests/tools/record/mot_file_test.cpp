@@ -121,6 +121,8 @@ TEST(MotFile, ReadsNamedColumns) {
         "10,20,40,60,0,0.5,7,0\n11,20,41,60,0,0.5,7,1\n",
         "Frame,TrackId,xCenter,yCenter,Width,Height,Score\n1,7,25,40,30,40,0.5\n"
         "2,7,26,40,30,40,0.5\n",
+        "# of a detector\nframe;id;left;top;width;height;conf\n1;7;10;20,0;30;40;0,5\n1;;;;;;\n"
+        "frame;id;left;top;width;height;conf\n2;7;11;20,0;30;40;0,5\n",
         "frame,id,x,y,width,height,score,xVelocity,yVelocity,a,b,c\n0,7,10,20,30,40,.5,1,2,3,4,5\n"
         "1,7,11,20,30,40,.5,1,2,3,4,5\n"}) {
     const auto path = folder.write("boxes.csv", text);
