@@ -136,7 +136,7 @@ class Session {
     if (!manners_.quiet && refusals.times + refusals.measurements > 0) {
       tell(
           "ghtrack: warning: refused {} time steps that are not positive and finite and {} "
-          "measurements that are not finite",
+          "measurements that are not finite or have no finite estimate",
           refusals.times, refusals.measurements);
     }
   }

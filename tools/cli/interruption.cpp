@@ -21,12 +21,12 @@ bool has_last_call = false;
 
 // What follows up to watch_signals() runs in signal handlers: system calls and nothing else.
 
-void end_by_force(int /*signal*/) {
+void end_by_force(int signal) {
   constexpr std::string_view kFarewell = "ghtrack: interrupted\n";
   remove_all_scratch();
   [[maybe_unused]] const ssize_t said =
       ::write(STDERR_FILENO, kFarewell.data(), kFarewell.size());
-  ::_exit(128 + static_cast<int>(last_signal));
+  ::_exit(128 + (last_signal != 0 ? static_cast<int>(last_signal) : signal));
 }
 
 void give(const timespec& time) {

@@ -94,6 +94,12 @@ Campaign read_campaign(std::span<const std::string> files, const CampaignOptions
   Campaign campaign;
   for (const std::string& file : files) {
     const WorldScene scene = read_world(file, options.overrides);
+    for (const CampaignCell& other : campaign.cells) {
+      if (other.scene.name != scene.name) continue;
+      throw InputError(file + ": error: this scene and that of " + other.file +
+                       " have the same name, '" + scene.name +
+                       "': nobody could tell their results apart");
+    }
     for (const auto& settings : combinations(given.empty() ? sweeps_of(scene.compare) : given)) {
       std::vector<std::string> overrides = options.overrides;
       overrides.insert(overrides.end(), settings.begin(), settings.end());
