@@ -108,6 +108,15 @@ void collect(const std::vector<SensorLook>& looks, Sample& sample) {
   }
 }
 
+/// What is held, as the place of a parked GPS, says nothing of the noise: it would be none.
+void drop_held(std::vector<Pair>& pairs) {
+  constexpr double kRounding = 1e-18;  // of the greatest squared residual
+  double most = 0.0;
+  for (const Pair& pair : pairs) most = std::max(most, pair.squared_residual);
+  std::erase_if(pairs,
+                [&](const Pair& pair) { return pair.squared_residual <= kRounding * most; });
+}
+
 /// The greatest number that all of these are multiples of, by Euclid's algorithm; 0 if that is
 /// nothing but what rounding leaves.
 double common_step(std::vector<double>& values) {
@@ -171,6 +180,7 @@ std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> senso
   Sample sample;
   for (const auto& looks : sensors) collect(looks, sample);
   std::vector<Pair>& pairs = sample.pairs;
+  drop_held(pairs);
   if (pairs.empty()) return std::nullopt;
   std::sort(pairs.begin(), pairs.end(),
             [](const Pair& a, const Pair& b) { return a.speed < b.speed; });

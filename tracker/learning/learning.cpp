@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -121,6 +122,19 @@ Eigen::Vector2d roughness(const std::vector<Path>& paths) {
     }
   }
   return most;
+}
+
+/// Whether any path goes somewhere along each axis.
+std::array<bool, 2> moving_axes(const std::vector<Path>& paths) {
+  std::array<bool, 2> moves{};
+  for (const Path& path : paths) {
+    for (const Fix& fix : path.fixes) {
+      for (int axis = 0; axis < 2; ++axis) {
+        moves[axis] = moves[axis] || fix.position[axis] != path.fixes.front().position[axis];
+      }
+    }
+  }
+  return moves;
 }
 
 class Learner {
@@ -306,7 +320,8 @@ class Learner {
       const double sigma = typical_sigma(p, s);
       const double all = (seen_[s] + Eigen::Vector2d::Constant(6.0 * sigma)).prod();
       const double least = std::min(all, 2.0 * std::numbers::pi * sigma * sigma);
-      result.push_back(std::clamp(spread_of(unexplained[s]).value_or(all), least, all));
+      const auto spread = paths.empty() ? std::nullopt : spread_of(unexplained[s]);
+      result.push_back(std::clamp(spread.value_or(all), least, all));
     }
     return result;
   }
@@ -434,8 +449,9 @@ class Learner {
   Eigen::Vector2d least_noise(const std::vector<Path>& paths) const {
     Eigen::Vector2d least = Eigen::Vector2d::Constant(1e-6 * extent_);
     const Eigen::Vector2d rough = roughness(paths);
+    const std::array<bool, 2> moves = moving_axes(paths);
     for (int axis = 0; axis < 2; ++axis) {
-      if (!paths.empty() && rough[axis] < 0.1 * rounding_[axis]) continue;
+      if (moves[axis] && rough[axis] < 0.1 * rounding_[axis]) continue;
       least[axis] = std::max(least[axis], rounding_[axis] / std::sqrt(12.0));
     }
     return least;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "tests/tracker/learning/scene.hpp"
@@ -56,6 +57,48 @@ TEST(Learning, FindsTheScalesOfAllKindsOfScenes) {
     EXPECT_NEAR(std::log(learned.sensors[0].noise.x.value / scene.noise_x), 0.0, 0.35) << seed;
     EXPECT_NEAR(learned.sensors[0].detection_probability.value, scene.detection_probability, 0.1)
         << seed;
+  }
+}
+
+// Property: what stands still, to the digit, is a target like another, alone or beside one that
+// moves, and tells nothing of the noise; so is one that stops on its way.
+TEST(Learning, FollowsWhatIsParked) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const auto scans_of = [&](int parked_from, int parked_until, bool has_other) {
+    std::vector<Scan> scans;
+    double x = 0.0;
+    for (int k = 0; k < 150; ++k) {
+      const bool is_parked = k >= parked_from && k < parked_until;
+      if (!is_parked) x += 5.0;
+      Scan& scan = scans.emplace_back();
+      scan.time = k;
+      const auto add = [&](double at_x, double at_y) {
+        scan.detections.push_back(
+            {.position = {at_x, at_y}, .covariance = Eigen::Matrix2d::Zero(), .label = {}});
+      };
+      if (is_parked) {
+        add(x, 0.0);
+      } else {
+        const double error = normal(random);
+        add(x + error, normal(random));
+      }
+      if (has_other) add(1000.0, 500.0);
+    }
+    return scans;
+  };
+  for (const auto& [from, until, has_other] :
+       {std::tuple(0, 150, false), std::tuple(50, 100, false), std::tuple(70, 78, false),
+        std::tuple(0, 0, true)}) {
+    SCOPED_TRACE(until);
+    const std::vector<Scan> scans = scans_of(from, until, has_other);
+    const LearnedTracker learned = learned_from(scans, 1.0);
+    EXPECT_EQ(learned.tracks, has_other ? 2 : 1);
+    EXPECT_GT(learned.explained, 0.98);
+    const double moving = 1.0 - (until - from) / 150.0;
+    if (moving > 0.5 && !has_other) {
+      EXPECT_NEAR(learned.sensors[0].noise.x.value, 1.0, 0.3);
+    }
   }
 }
 
