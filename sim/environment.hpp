@@ -87,6 +87,8 @@ class Environment {
   }
   const Wind& wind() const { return wind_; }
   const std::vector<Surface>& surfaces() const { return surfaces_; }
+  /// Whether a place is in the ground or a box.
+  bool is_solid(const Vec2& place) const;
   std::uint64_t seed() const { return seed_; }  // of the run
 
   /// What a surface is called: "ground", "walls[2]", "boxes[0]".
@@ -100,6 +102,8 @@ class Environment {
   Vec2 gravity_;
   Air air_;
   Wind wind_;
+  std::optional<Ground> ground_;
+  std::vector<SolidBox> boxes_;
   std::vector<Surface> surfaces_;
   std::vector<std::string> surface_names_;
   std::uint64_t seed_;

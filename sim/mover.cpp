@@ -9,14 +9,17 @@
 namespace ghtrack {
 namespace {
 
-/// Random motion is told where its numbers come from.
+/// Random motion is told where its numbers come from, and what goes up and down along a track how
+/// heavy it is.
 template <class Models>
-Models make_model(const Regime& regime, const RandomSource& source) {
+Models make_model(const Regime& regime, const RandomSource& source, const Vec2& gravity) {
   return std::visit(
       [&]<class R>(const R& r) {
         using Model = typename R::Model;
         if constexpr (std::constructible_from<Model, const R&, const RandomSource&>) {
           return Models(Model(r, source));
+        } else if constexpr (std::constructible_from<Model, const R&, const Vec2&>) {
+          return Models(Model(r, gravity));
         } else {
           return Models(Model(r));
         }
@@ -28,7 +31,8 @@ Models make_model(const Regime& regime, const RandomSource& source) {
 
 Mover::Mover(const Target& target, const Environment& environment)
     : model_(make_model<Fold<Regime>::Models>(target.motion,
-                                              {environment.seed(), key_of(target.name)})),
+                                              {environment.seed(), key_of(target.name)},
+                                              environment.gravity())),
       key_(key_of(target.name)),
       appears_(target.appears),
       disappears_(target.disappears.value_or(std::numeric_limits<double>::infinity())),

@@ -69,6 +69,9 @@ class Mover {
   /// Its model and its state if it is a train; null otherwise, and where it is not there.
   const TrainModel* train() const { return std::get_if<TrainModel>(&model_); }
   TrainModel::State* train(State& state) const;
+  const TrainModel::State* train(const State& state) const {
+    return train(const_cast<State&>(state));
+  }
 
   /// What forces but those of contact do to it, and how fast they change.
   /// @pre flight() is not null

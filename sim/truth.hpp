@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,6 +41,8 @@ struct TruthState {
   Vec2 velocity = Vec2::Zero();      // [m/s]
   Vec2 acceleration = Vec2::Zero();  // [m/s²]
   Vec2 wind = Vec2::Zero();          // of the air where it is, if that is to be recorded [m/s]
+  /// In the coupler behind it, pulling: positive, if that is to be recorded [N].
+  std::optional<double> coupler_force = std::nullopt;
 };
 
 /// Pose of one rigid part, such as one car of a train, for pictures and occlusion.
@@ -51,12 +54,13 @@ struct BodyPose {
 };
 
 /// What may be recorded of objects beside their kinematics.
-enum class TruthColumn { kHeading, kSpin, kWind };
+enum class TruthColumn { kHeading, kSpin, kWind, kCouplerForce };
 
-constexpr std::array<std::pair<std::string_view, TruthColumn>, 3> enum_names(TruthColumn) {
+constexpr std::array<std::pair<std::string_view, TruthColumn>, 4> enum_names(TruthColumn) {
   return {{{"heading", TruthColumn::kHeading},
            {"spin", TruthColumn::kSpin},
-           {"wind", TruthColumn::kWind}}};
+           {"wind", TruthColumn::kWind},
+           {"coupler_force", TruthColumn::kCouplerForce}}};
 }
 
 /// What can happen to an object.
@@ -65,14 +69,16 @@ enum class EventKind {
   kCoupling,  // it was coupled to another
   kBurst,     // it burst
   kOverrun,   // it ran past the place where it should have stopped
+  kOverspeed, // it ran faster than a speed limit allows
   kPassage,   // it passed through another, as trains do whose tracks cross
 };
 
-constexpr std::array<std::pair<std::string_view, EventKind>, 5> enum_names(EventKind) {
+constexpr std::array<std::pair<std::string_view, EventKind>, 6> enum_names(EventKind) {
   return {{{"contact", EventKind::kContact},
            {"coupling", EventKind::kCoupling},
            {"burst", EventKind::kBurst},
            {"overrun", EventKind::kOverrun},
+           {"overspeed", EventKind::kOverspeed},
            {"passage", EventKind::kPassage}}};
 }
 

@@ -46,6 +46,17 @@ bool is_inside(const SweptBox& box, const SweptBox& larger) {
          (box.high.array() <= larger.high.array()).all();
 }
 
+/// How far something is inside something else, and which way leads out.
+struct Overlap {
+  double depth = 0.0;  // [m]
+  Vec2 normal = Vec2::Zero();
+};
+
+/// Whether somebody could not do what was asked for; that is told in any case.
+bool is_failure(EventKind kind) {
+  return kind == EventKind::kOverrun || kind == EventKind::kOverspeed;
+}
+
 /// By time; of what happens at one instant, that to objects by themselves comes first, by their ids,
 /// and then what they do to each other, in its order.
 bool happens_before(const WorldEvent& a, const WorldEvent& b) {
@@ -124,6 +135,8 @@ struct World::Scenery {
     return first_objects[target] + (movers[target].objects() > 1 ? part : 0);
   }
   std::vector<Displacement> place_arrivals(const States& before, States& after, double to) const;
+  Overlap deepest_overlap(const Vec2& place, const States& at, std::size_t target,
+                          const std::vector<std::size_t>& others, double time) const;
   double move_out(States& at, std::size_t target, const std::vector<std::size_t>& others,
                   double time) const;
   TruthSnapshot snapshot(const States& at, double time) const;
@@ -340,7 +353,7 @@ void World::Scenery::advance_trains(const Railway& railway, const States& before
   }
   if (!record.events) return;
   for (const TrainCoupling& coupling : couplings) {
-    told.push_back({coupling.time, EventKind::kCoupling,
+    told.push_back({coupling.time, coupling.kind,
                     object_of(static_cast<std::size_t>(coupling.one), coupling.object),
                     object_of(static_cast<std::size_t>(coupling.other), coupling.other_object), "",
                     coupling.position, coupling.impulse});
@@ -383,7 +396,7 @@ void World::Scenery::lay_tracks() {
 void World::Scenery::add_events(std::size_t target, const ImpactLog& log,
                                 std::vector<WorldEvent>& told) const {
   for (const Impact& impact : log) {
-    if (!record.events && impact.kind != EventKind::kOverrun) continue;
+    if (!record.events && !is_failure(impact.kind)) continue;
     told.push_back({impact.time, impact.kind, first_objects[target] + impact.object,
                     impact.other < 0 ? -1 : first_objects[target] + impact.other,
                     impact.surface < 0 ? std::string() : environment.surface_name(impact.surface),
@@ -527,38 +540,69 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
   }
 }
 
-/// Moves a round body out of all that it is in, and what is in something that does not give way.
+/// How far a round body at some place is inside the surroundings or one of these targets, at most,
+/// and which way leads out.
+Overlap World::Scenery::deepest_overlap(const Vec2& place, const States& at, std::size_t target,
+                                        const std::vector<std::size_t>& others,
+                                        double time) const {
+  const double radius = movers[target].round().radius;
+  Overlap overlap{kTouching, Vec2::Zero()};
+  const auto consider = [&](const Contact& contact) {
+    if (radius - contact.distance <= overlap.depth) return;
+    overlap = {radius - contact.distance, contact.normal};
+  };
+  for (const Surface& surface : environment.surfaces()) consider(surface.contact(place));
+  for (const std::size_t other : others) {
+    if (other == target || !is_there(at[other], other, time)) continue;
+    if (carriers[target] == other || carriers[other] == target) continue;
+    const Outline& outline = movers[other].contact().outline;
+    for (int part = 0; part < movers[other].bodies(); ++part) {
+      const RigidBody body = movers[other].body(at[other], part);
+      consider(contact_with_outline(place, body.position, body.angle, outline));
+    }
+  }
+  return overlap;
+}
+
+/// Moves a round body out of all that it is in: along the deepest overlap again and again, or, where
+/// that leads from one thing into another, to the nearest free place found on rings around it.
 /// @returns by how much
+/// @throws std::runtime_error if there is no room
 double World::Scenery::move_out(States& at, std::size_t target,
                                 const std::vector<std::size_t>& others, double time) const {
   FlightState* const flight = movers[target].flight(at[target]);
   if (flight == nullptr) return 0.0;
   const Vec2 began = flight->position;
-  const double radius = movers[target].round().radius;
-  constexpr int kMostShifts = 100;
-  for (int shift = 0; shift < kMostShifts; ++shift) {
-    double deepest = kTouching;
-    Vec2 normal = Vec2::Zero();
-    const auto consider = [&](const Contact& contact) {
-      if (radius - contact.distance <= deepest) return;
-      deepest = radius - contact.distance;
-      normal = contact.normal;
-    };
-    for (const Surface& surface : environment.surfaces())
-      consider(surface.contact(flight->position));
-    for (const std::size_t other : others) {
-      if (other == target || !is_there(at[other], other, time)) continue;
-      if (carriers[target] == other || carriers[other] == target) continue;
-      const Outline& outline = movers[other].contact().outline;
-      for (int part = 0; part < movers[other].bodies(); ++part) {
-        const RigidBody body = movers[other].body(at[other], part);
-        consider(contact_with_outline(flight->position, body.position, body.angle, outline));
+  const auto free_place_from =
+      [&](Vec2 place, const std::vector<std::size_t>& obstacles) -> std::optional<Vec2> {
+    constexpr int kMostShifts = 100;
+    for (int shift = 0; shift < kMostShifts; ++shift) {
+      const Overlap overlap = deepest_overlap(place, at, target, obstacles, time);
+      if (overlap.depth <= kTouching) {
+        return environment.is_solid(place) ? std::nullopt : std::optional(place);
       }
+      place += overlap.depth * overlap.normal;
     }
-    if (deepest <= kTouching) break;
-    flight->position += deepest * normal;
+    return std::nullopt;
+  };
+  std::optional<Vec2> nearest = free_place_from(began, others);
+  constexpr int kMostRings = 400;
+  constexpr int kDirections = 24;
+  const double step = 0.5 * movers[target].round().radius;
+  for (int ring = 1; !nearest && ring <= kMostRings; ++ring) {
+    for (int i = 0; i < kDirections; ++i) {
+      const Vec2 start = began + ring * step * direction(2.0 * portable::kPi * i / kDirections);
+      const std::optional<Vec2> found = free_place_from(start, everyone);
+      if (!found) continue;
+      if (!nearest || (*found - began).norm() < (*nearest - began).norm()) nearest = found;
+    }
   }
-  return (flight->position - began).norm();
+  if (!nearest) {
+    throw std::runtime_error("there is no room for the ball or balloon that appears at (" +
+                             std::to_string(began.x()) + ", " + std::to_string(began.y()) + ")");
+  }
+  flight->position = *nearest;
+  return (*nearest - began).norm();
 }
 
 std::vector<Displacement> World::Scenery::place_arrivals(const States& before, States& after,
@@ -612,6 +656,10 @@ TruthSnapshot World::Scenery::snapshot(const States& at, double time) const {
       truth.objects.push_back({first + object, now.position, now.velocity, now.acceleration});
       if (record.has(TruthColumn::kWind)) {
         truth.objects.back().wind = environment.wind().at(now.position, time);
+      }
+      if (record.has(TruthColumn::kCouplerForce) && movers[i].train() != nullptr) {
+        truth.objects.back().coupler_force =
+            movers[i].train()->coupler_force(*movers[i].train(at[i]), object);
       }
     }
     for (int part = 0; part < movers[i].bodies(); ++part) {

@@ -83,6 +83,9 @@ class TrackMotion {
   Face high(const States& states, std::size_t train) const {
     return face_of(trains_[train], states[train], true);
   }
+  bool couple(const Pair& pair) const {
+    return model(pair.behind).train_.couples && model(pair.ahead).train_.couples;
+  }
   double gap(const States& states, const Pair& pair) const {
     return low(states, pair.ahead).place - high(states, pair.behind).place;
   }
@@ -92,8 +95,9 @@ class TrackMotion {
   Rates accelerations(States& states, double time, const Rates& directions) const;
   States moved(double time, double step) const;
   void let_stand(States& next, double time) const;
-  std::vector<bool> overruns() const;
-  void log_overruns(const std::vector<bool>& had, double time) const;
+  using Fault = bool (TrainModel::*)(const State&, std::size_t) const;
+  std::vector<bool> groups_with(Fault fault) const;
+  void log_new(Fault fault, EventKind kind, const std::vector<bool>& had, double time) const;
 
   std::span<const TrainOnTrack> trains_;
   States now_;
@@ -160,7 +164,7 @@ void TrackMotion::touch_and_couple(double time, std::vector<TrainCoupling>* coup
   bool changed = false;
   for (Pair& pair : pairs_) {
     if (!pair.touch || pair.coupled) continue;
-    if (model(pair.behind).train_.couples && model(pair.ahead).train_.couples) {
+    if (couple(pair)) {
       if (couplings != nullptr) couplings->push_back(coupling_of(pair, time));
       pair.coupled = true;
       changed = true;
@@ -222,16 +226,8 @@ void TrackMotion::press(States& states) const {
     const Face ahead = low(states, pair.ahead);
     const double stretch = ahead.place - behind.place;
     const double parting = ahead.speed - behind.speed;
-    double pull = 0.0;
-    if (pair.coupled) {
-      const double beyond = std::abs(stretch) - pair.buffers.slack;
-      if (beyond > 0.0) {
-        pull = pair.buffers.stiffness * std::copysign(beyond, stretch) +
-               pair.buffers.damping * parting;
-      }
-    } else if (stretch < 0.0) {
-      pull = std::min(0.0, pair.buffers.stiffness * stretch + pair.buffers.damping * parting);
-    }
+    const double pull = pair.coupled ? pair.buffers.pull(stretch, parting)
+                                     : pair.buffers.press(stretch, parting);
     const auto push = [&](std::size_t train, std::size_t unit, double force) {
       std::vector<double>& pushes = states[train].pushes;
       pushes.resize(states[train].place.size());
@@ -342,19 +338,20 @@ void TrackMotion::let_stand(States& next, double time) const {
   }
 }
 
-/// Of each group of cars in each train: whether it has run past its stop.
-std::vector<bool> TrackMotion::overruns() const {
+/// Of each group of cars in each train: whether it has done what it should not.
+std::vector<bool> TrackMotion::groups_with(Fault fault) const {
   std::vector<bool> result;
   for (std::size_t i = 0; i < trains_.size(); ++i) {
     for (std::size_t group = 0; group < model(i).groups_.size(); ++group) {
-      result.push_back(model(i).has_overrun(now_[i], group));
+      result.push_back((model(i).*fault)(now_[i], group));
     }
   }
   return result;
 }
 
-void TrackMotion::log_overruns(const std::vector<bool>& had, double time) const {
-  const std::vector<bool> have = overruns();
+void TrackMotion::log_new(Fault fault, EventKind kind, const std::vector<bool>& had,
+                          double time) const {
+  const std::vector<bool> have = groups_with(fault);
   auto place = std::size_t{0};
   for (std::size_t i = 0; i < trains_.size(); ++i) {
     for (std::size_t group = 0; group < model(i).groups_.size(); ++group, ++place) {
@@ -362,8 +359,7 @@ void TrackMotion::log_overruns(const std::vector<bool>& had, double time) const 
       const std::size_t first = model(i).groups_[group].begin;
       const bool is_seen = group == 0 || model(i).train_.track_every_car;
       trains_[i].log->push_back({time, -1, model(i).track_.at(now_[i].place[first]).position,
-                                 Vec2::Zero(), EventKind::kOverrun,
-                                 is_seen ? static_cast<int>(first) : 0});
+                                 Vec2::Zero(), kind, is_seen ? static_cast<int>(first) : 0});
     }
   }
 }
@@ -373,7 +369,8 @@ void TrackMotion::run(double from, double to, std::vector<TrainCoupling>* coupli
   while (time < to) {
     for (std::size_t i = 0; i < trains_.size(); ++i) model(i).join(now_[i], time, trains_[i].log);
     touch_and_couple(time, couplings);
-    const std::vector<bool> had_overrun = overruns();
+    const std::vector<bool> had_overrun = groups_with(&TrainModel::has_overrun);
+    const std::vector<bool> had_overspeed = groups_with(&TrainModel::has_overspeed);
     for (std::size_t i = 0; i < trains_.size(); ++i) model(i).decide(now_[i], time);
     const double end = end_of_step(time, to);
     double step = end - time;
@@ -389,15 +386,25 @@ void TrackMotion::run(double from, double to, std::vector<TrainCoupling>* coupli
       next = moved(time, step);
     }
     let_stand(next, time + step);
-    bool touched = false;
+    std::vector<const Pair*> touched;
     for (Pair& pair : pairs_) {
       if (pair.touch || !(gap(now_, pair) > 0.0) || gap(next, pair) > 0.0) continue;
-      pair.touch = touched = true;
+      pair.touch = true;
+      touched.push_back(&pair);
+    }
+    time = step == end - time ? end : time + step;
+    for (std::size_t i = 0; i < trains_.size(); ++i) {
+      model(i).log_touches(now_[i], next[i], time, trains_[i].log);
     }
     now_ = std::move(next);
-    if (touched) note_neighbours();
-    time = step == end - time ? end : time + step;
-    log_overruns(had_overrun, time);
+    if (!touched.empty()) note_neighbours();
+    for (const Pair* const pair : touched) {
+      if (couplings == nullptr || couple(*pair)) continue;
+      couplings->push_back(coupling_of(*pair, time));
+      couplings->back().kind = EventKind::kContact;
+    }
+    log_new(&TrainModel::has_overrun, EventKind::kOverrun, had_overrun, time);
+    log_new(&TrainModel::has_overspeed, EventKind::kOverspeed, had_overspeed, time);
   }
   for (std::size_t i = 0; i < trains_.size(); ++i) *trains_[i].state = std::move(now_[i]);
 }

@@ -26,6 +26,7 @@ struct TrainCoupling {
   Vec2 position = Vec2::Zero();  // of the one's car that couples [m]
   /// That the one receives until all that hangs together runs at one speed [N s].
   Vec2 impulse = Vec2::Zero();
+  EventKind kind = EventKind::kCoupling;  // kContact: they only buffer
 };
 
 /// Integrates the trains of one track over [from, to].

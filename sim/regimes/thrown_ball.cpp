@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLargestLift = 0.5;    // that any of the models can give
 constexpr double kDecaySpeed = 44.704;  // 100 miles per hour [m/s]
+constexpr double kDecayDensity = 1.2;   // [kg/m³]
 
 ThrownBall make_preset(std::string_view type, double mass, double radius, double drag,
                        LiftModel lift, double inertia, double restitution, double friction) {
@@ -146,7 +147,9 @@ FlightRate BallModel::rate(const FlightState& state, const Environment& environm
     const double s = ball_.radius * std::abs(state.spin) / speed;
     const double lift = std::copysign(lift_coefficient(ball_.lift, s), state.spin);
     rate.acceleration += k * lift * speed * left_of(air);
-    if (ball_.spin_decay > 0.0) rate.spin = -state.spin * speed / (ball_.spin_decay * kDecaySpeed);
+    if (ball_.spin_decay > 0.0) {
+      rate.spin = -density / kDecayDensity * state.spin * speed / (ball_.spin_decay * kDecaySpeed);
+    }
   }
   if (ball_.buoyancy) {
     // What it displaces lifts it, and half as much moves along (Batchelor 1967, section 6.8).
@@ -166,7 +169,9 @@ double BallModel::stiffness(const FlightState& state, const Environment& environ
   double coefficients = 2.0 * drag_coefficient(density, environment.air().viscosity, speed);
   if (state.spin != 0.0 && ball_.lift != LiftModel::kNone) coefficients += kLargestLift;
   double rate = k * coefficients * speed;
-  if (ball_.spin_decay > 0.0) rate += speed / (ball_.spin_decay * kDecaySpeed);
+  if (ball_.spin_decay > 0.0) {
+    rate += density / kDecayDensity * speed / (ball_.spin_decay * kDecaySpeed);
+  }
   return rate;
 }
 

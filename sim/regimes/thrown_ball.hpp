@@ -148,7 +148,7 @@ struct ThrownBall {
     v.field("lift", &ThrownBall::lift, {.meaning = "lift coefficient as a function of spin"});
     v.field("spin_decay", &ThrownBall::spin_decay,
             {.unit = "s",
-             .meaning = "time constant of the spin at 44.704 m/s; 0: no decay",
+             .meaning = "time constant of the spin at 44.704 m/s in air of 1.2 kg/m^3; 0: no decay",
              .minimum = 0.0,
              .maximum = 1e6});
     v.field("inertia", &ThrownBall::inertia,

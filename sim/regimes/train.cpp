@@ -17,6 +17,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kDriverTime = 2.0;      // in which a driver makes up a difference of speed [s]
 constexpr double kStationBraking = 0.9;  // part of the service brake that a driver plans with
 constexpr double kStopped = 0.5;         // who stands no farther beyond a stop has kept it [m]
+constexpr double kOverspeed = 0.5;       // who is no faster than that keeps a limit [m/s]
 
 /// Of steel wheels on dry rails (Curtius & Kniffler 1944).
 double dry_adhesion(double speed) { return 7.5 / (3.6 * std::abs(speed) + 44.0) + 0.161; }
@@ -28,9 +29,20 @@ double braking_limit(const Train& train, double speed) {
 
 }  // namespace
 
-TrainModel::TrainModel(const Train& train)
+double Couplers::pull(double stretch, double parting) const {
+  const double beyond = std::abs(stretch) - slack;
+  return beyond > 0.0 ? stiffness * std::copysign(beyond, stretch) + damping * parting : 0.0;
+}
+
+double Couplers::press(double stretch, double parting) const {
+  return stretch < 0.0 ? std::min(0.0, stiffness * stretch + damping * parting) : 0.0;
+}
+
+TrainModel::TrainModel(const Train& train, const Vec2& gravity)
     : train_(train),
-      track_(train.track, train.position, train.heading_deg * portable::kPi / 180.0) {
+      track_(train.track, train.position, train.heading_deg * portable::kPi / 180.0),
+      gravity_(gravity) {
+  if (!track_.bends()) weight_along_ = weight_along(0.0);
   if (!train.couplers) {
     masses_ = {train.mass};
     groups_ = {{0, 1}};
@@ -103,6 +115,18 @@ bool TrainModel::has_overrun(const State& state, std::size_t group) const {
   const auto* const stop = std::get_if<StationStop>(command);
   return stop != nullptr && place_of_first(state, group) > stop->position + kStopped &&
          state.speed[groups_[group].begin] > 0.0;
+}
+
+/// Whether any car of the group is faster than a limit allows where it is.
+bool TrainModel::has_overspeed(const State& state, std::size_t group) const {
+  const double first = place_of_first(state, group);
+  const double last = first - static_cast<double>(cars_of(group) - 1) * train_.car_length;
+  const double speed = std::abs(state.speed[groups_[group].begin]);
+  return std::any_of(train_.speed_limits.begin(), train_.speed_limits.end(),
+                     [&](const SpeedLimit& limit) {
+                       return first > limit.from && last < limit.to &&
+                              speed > limit.speed + kOverspeed;
+                     });
 }
 
 void TrainModel::decide(State& state, double time) const {
@@ -214,6 +238,7 @@ TrainModel::Effort TrainModel::effort(const State& state, double time, std::size
   if (const auto* target = std::get_if<TargetSpeed>(command)) return towards(target->speed);
   if (const auto* stop = std::get_if<StationStop>(command)) {
     const double left = stop->position - place_of_first(state, group);
+    if (!driver.stopping && speed < 0.0) return {.braking = train_.service_brake};
     if (!driver.stopping) return {.acceleration = 0.0};
     if (left <= 0.01 || speed < 0.05) return {.braking = train_.service_brake};
     return {.acceleration = -std::min(0.5 * speed * speed / left, train_.emergency_brake)};
@@ -221,8 +246,14 @@ TrainModel::Effort TrainModel::effort(const State& state, double time, std::size
   return {};  // coasting
 }
 
+double TrainModel::weight_along(double place) const {
+  constexpr double kLevel = 1e-12;  // of gravity: less is the rounding of an angle
+  const double along = gravity_.dot(direction(track_.at(place).heading));
+  return std::abs(along) > kLevel * gravity_.norm() ? along : 0.0;
+}
+
 double TrainModel::slope_force(double place, double mass) const {
-  double force = 0.0;
+  double force = mass * (weight_along_ ? *weight_along_ : weight_along(place));
   for (const Grade& grade : train_.grades) {
     if (place >= grade.from && place < grade.to) force -= mass * kStandardGravity * grade.grade;
   }
@@ -257,19 +288,22 @@ TrainModel::Effort TrainModel::effort_for(const Effort& wanted, double speed, do
   return {.force = std::clamp(needed, -limit, limit)};
 }
 
-/// The most that the speed limits leave to the driver [m/s²]. On the way to a limit v₁ he keeps to
-/// the parabola v² = v₁² + 2 b s on which he brakes with b.
+/// The most that the speed limits leave to the driver, in the direction in which he runs [m/s²]. On
+/// the way to a limit v₁ he keeps to the parabola v² = v₁² + 2 b s on which he brakes with b.
 double TrainModel::highest_acceleration(double place, double speed, std::size_t cars) const {
   const double braking = kStationBraking * train_.service_brake;
+  const double length = static_cast<double>(cars - 1) * train_.car_length;
+  const bool is_forwards = speed > 0.0;
   double highest = kNever;
   for (const SpeedLimit& limit : train_.speed_limits) {
-    const double left = limit.from - place;
-    if (place > limit.to + static_cast<double>(cars - 1) * train_.car_length) continue;
+    const bool is_behind = is_forwards ? place > limit.to + length : place < limit.from;
+    if (is_behind) continue;
+    const double left = is_forwards ? limit.from - place : place - length - limit.to;
     const bool is_ahead = left > 0.0;
     const double allowed =
         is_ahead ? std::sqrt(limit.speed * limit.speed + 2.0 * braking * left) : limit.speed;
-    const double along = is_ahead ? -braking * speed / std::max(allowed, 1e-9) : 0.0;
-    highest = std::min(highest, along + (allowed - speed) / kDriverTime);
+    const double along = is_ahead ? -braking * std::abs(speed) / std::max(allowed, 1e-9) : 0.0;
+    highest = std::min(highest, along + (allowed - std::abs(speed)) / kDriverTime);
   }
   return highest;
 }
@@ -316,13 +350,12 @@ TrainModel::Effort TrainModel::possible_effort(const State& state, double time, 
   const double inertia = mass * train_.rotating_mass;
   Effort now = effort(state, time, group);
   const bool has_driver = group == 0 || !drive_of(group).empty();
-  if (!train_.speed_limits.empty() && has_driver && speed > 0.0) {
-    const auto cars = static_cast<std::size_t>(group == 0 ? train_.cars
-                                                          : train_.ahead[group - 1].cars);
-    const double highest = highest_acceleration(state.place[begin], speed, cars);
+  if (!train_.speed_limits.empty() && has_driver && speed != 0.0) {
+    const double direction = portable::sign(speed);
+    const double highest = highest_acceleration(state.place[begin], speed, cars_of(group));
     const double meant = now.acceleration.value_or(
-        (now.force + active_sum - passive_sum) / inertia - now.braking);
-    if (meant > highest) now = {.acceleration = highest};
+        (now.force + active_sum - direction * passive_sum) / inertia - direction * now.braking);
+    if (direction * meant > highest) now = {.acceleration = direction * highest};
   }
   if (!now.acceleration) return now;
   if (*now.acceleration == 0.0 && speed == 0.0) {
@@ -393,11 +426,8 @@ void TrainModel::add_coupler_forces(const State& state, std::vector<double>& for
     const bool ends_group = std::any_of(groups_.begin(), groups_.end(),
                                         [i](const Group& group) { return group.end == i + 1; });
     if (ends_group) continue;
-    const double stretch = state.place[i] - state.place[i + 1] - train_.car_length;
-    const double beyond = std::abs(stretch) - couplers.slack;
-    if (beyond <= 0.0) continue;
-    const double pull = couplers.stiffness * std::copysign(beyond, stretch) +
-                        couplers.damping * (state.speed[i] - state.speed[i + 1]);
+    const double pull = couplers.pull(state.place[i] - state.place[i + 1] - train_.car_length,
+                                      state.speed[i] - state.speed[i + 1]);
     forces[i] -= pull;
     forces[i + 1] += pull;
   }
@@ -414,15 +444,8 @@ void TrainModel::add_forces_ahead(const State& state, std::vector<double>& force
     const Meeting& meeting = meetings_[i];
     const double stretch = gap(state, meeting);
     const double parting = state.speed[meeting.ahead] - state.speed[meeting.behind];
-    double pull = 0.0;
-    if (state.joined[i]) {
-      const double beyond = std::abs(stretch) - couplers.slack;
-      if (beyond > 0.0) {
-        pull = couplers.stiffness * std::copysign(beyond, stretch) + couplers.damping * parting;
-      }
-    } else if (stretch < 0.0) {
-      pull = std::min(0.0, couplers.stiffness * stretch + couplers.damping * parting);
-    }
+    const double pull =
+        state.joined[i] ? couplers.pull(stretch, parting) : couplers.press(stretch, parting);
     forces[meeting.ahead] -= pull;
     forces[meeting.behind] += pull;
   }
@@ -462,17 +485,58 @@ void TrainModel::join(State& state, double time, ImpactLog* log) const {
     if (state.joined[i] || !meeting.couples || gap(state, meeting) > 0.0) continue;
     state.joined[i] = true;
     if (log == nullptr) continue;
-    // What passes between the two until all that hangs together runs at its common speed.
-    const Consist behind = consist_of(state, i, false);
-    const Consist ahead = consist_of(state, i + 1, true);
-    const double passed = (behind.inertia * ahead.momentum - ahead.inertia * behind.momentum) /
-                          (behind.inertia + ahead.inertia);
-    const TrackPoint point = track_.at(state.place[meeting.behind]);
-    const bool every_car = train_.track_every_car;
-    log->push_back({time, -1, point.position, passed * direction(point.heading),
-                    EventKind::kCoupling, every_car ? static_cast<int>(meeting.behind) : 0,
-                    every_car ? static_cast<int>(meeting.ahead) : -1});
+    log->push_back(meeting_event(state, i, time, EventKind::kCoupling));
   }
+}
+
+/// Where two groups of cars touch, and the momentum that passes until all that hangs together runs
+/// at its common speed.
+Impact TrainModel::meeting_event(const State& state, std::size_t meeting, double time,
+                                 EventKind kind) const {
+  const auto& [unit_behind, unit_ahead, couples] = meetings_[meeting];
+  const Consist behind = consist_of(state, meeting, false);
+  const Consist ahead = consist_of(state, meeting + 1, true);
+  const double passed = (behind.inertia * ahead.momentum - ahead.inertia * behind.momentum) /
+                        (behind.inertia + ahead.inertia);
+  const TrackPoint point = track_.at(state.place[unit_behind]);
+  const bool every_car = train_.track_every_car;
+  return {time, -1, point.position, passed * direction(point.heading), kind,
+          every_car ? static_cast<int>(unit_behind) : 0,
+          every_car ? static_cast<int>(unit_ahead) : -1};
+}
+
+/// Tells of buffers that have come into touch between two states, if nothing couples there.
+void TrainModel::log_touches(const State& before, const State& after, double time,
+                             ImpactLog* log) const {
+  if (log == nullptr) return;
+  for (std::size_t i = 0; i < meetings_.size(); ++i) {
+    const bool touch = gap(before, meetings_[i]) > 0.0 && gap(after, meetings_[i]) <= 0.0;
+    if (!touch || meetings_[i].couples) continue;
+    log->push_back(meeting_event(after, i, time, EventKind::kContact));
+  }
+  if (!train_.buffer_stop || pressed(before) > 0.0 || pressed(after) <= 0.0) return;
+  const TrackPoint point = track_.at(after.place[front_]);
+  const Consist stopped = consist_of(after, groups_.size() - 1, false);
+  log->push_back({time, -1, point.position, -stopped.momentum * direction(point.heading),
+                  EventKind::kContact,
+                  train_.track_every_car ? static_cast<int>(front_) : 0});
+}
+
+std::optional<double> TrainModel::coupler_force(const State& state, int object) const {
+  const auto unit = static_cast<std::size_t>(object);
+  if (masses_.size() == 1) return std::nullopt;
+  for (const Group& group : groups_) {
+    if (unit < group.begin || unit + 1 >= group.end) continue;
+    return train_.couplers->pull(state.place[unit] - state.place[unit + 1] - train_.car_length,
+                                 state.speed[unit] - state.speed[unit + 1]);
+  }
+  for (std::size_t i = 0; i < meetings_.size(); ++i) {
+    const Meeting& meeting = meetings_[i];
+    if (meeting.ahead != unit || !state.joined[i]) continue;
+    return train_.couplers->pull(gap(state, meeting),
+                                 state.speed[unit] - state.speed[meeting.behind]);
+  }
+  return std::nullopt;
 }
 
 /// Whether buffers touch or part between two states.

@@ -90,6 +90,13 @@ struct Couplers {
   double damping = 1e6;
   double slack = 0.0;
 
+  /// What a coupling does to both ends, pulling: positive [N].
+  /// @param stretch  beyond its length [m]
+  /// @param parting  speed at which it grows [m/s]
+  double pull(double stretch, double parting) const;
+  /// The same of buffers that are not coupled: they only press.
+  double press(double stretch, double parting) const;
+
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("stiffness", &Couplers::stiffness,
@@ -337,7 +344,10 @@ struct Train {
     v.field("couples", &Train::couples,
             {.meaning = "couples to a train, another target, that it meets where their tracks are "
                         "one and the same, if that does so too; otherwise they only buffer"});
-    v.field("grades", &Train::grades, {.meaning = "gradients by place", .max_items = 10000});
+    v.field("grades", &Train::grades,
+            {.meaning = "gradients by place, besides that of a track which is drawn uphill in a side "
+                        "view",
+             .max_items = 10000});
     v.field("schematic_curves", &Train::schematic_curves,
             {.meaning = "curve resistance where the track is drawn straight", .max_items = 10000});
     v.field("brake_pipe_speed", &Train::brake_pipe_speed,
@@ -431,7 +441,8 @@ class TrainModel {
     double speed = 0.0;  // [m/s]
   };
 
-  explicit TrainModel(const Train& train);
+  /// @param gravity  along whose slope a train rolls where its track goes up or down [m/s²]
+  explicit TrainModel(const Train& train, const Vec2& gravity = Vec2::Zero());
 
   State start(const Environment& environment, double time) const;
   void advance(State& state, const Environment& environment, double from, double to,
@@ -446,6 +457,10 @@ class TrainModel {
   }
   RigidBody body(const State& state, int index) const;
   ContactProperties contact() const;
+
+  /// In the coupler behind an object's car, pulling: positive [N]; nothing where there is none, or
+  /// where couplers are rigid.
+  std::optional<double> coupler_force(const State& state, int object) const;
 
   const RailLine& track() const { return track_; }
   End front(const State& state) const;
@@ -487,6 +502,7 @@ class TrainModel {
   const DriveCommand* command_of(const State& state, std::size_t group) const;
   bool reached_next_phase(const State& state, std::size_t group) const;
   bool has_overrun(const State& state, std::size_t group) const;
+  bool has_overspeed(const State& state, std::size_t group) const;
   void decide(State& state, double time) const;
   void decide(State& state, double time, std::size_t group) const;
   double next_kink(const State& state, double time) const;
@@ -501,9 +517,15 @@ class TrainModel {
   Effort possible_effort(const State& state, double time, std::size_t group,
                          const std::vector<double>& active,
                          const std::vector<double>& passive) const;
+  std::size_t cars_of(std::size_t group) const {
+    return static_cast<std::size_t>(group == 0 ? train_.cars : train_.ahead[group - 1].cars);
+  }
   double highest_acceleration(double place, double speed, std::size_t cars) const;
   double braking_of(const Effort& now, const State& state, double time, std::size_t group,
                     std::size_t unit) const;
+  /// Of gravity, along the track as it is drawn [m/s²].
+  double weight_along(double place) const;
+  /// The same force and that of the grades [N].
   double slope_force(double place, double mass) const;
   double curve_drag(double place, double mass) const;
   void add_coupler_forces(const State& state, std::vector<double>& forces) const;
@@ -512,6 +534,8 @@ class TrainModel {
   double pressed(const State& state) const;
   Consist consist_of(const State& state, std::size_t group, bool ahead) const;
   void join(State& state, double time, ImpactLog* log) const;
+  void log_touches(const State& before, const State& after, double time, ImpactLog* log) const;
+  Impact meeting_event(const State& state, std::size_t meeting, double time, EventKind kind) const;
   std::vector<double> accelerations(const State& state, double time,
                                     const std::vector<double>& directions) const;
   static std::vector<double> directions_of(const State& state);
@@ -520,6 +544,8 @@ class TrainModel {
 
   Train train_;
   RailLine track_;
+  Vec2 gravity_;
+  std::optional<double> weight_along_;  // where the track has no bend: everywhere
   std::vector<Group> groups_;
   std::vector<Meeting> meetings_;  // of each group with the next
   std::size_t front_ = 0;          // the foremost unit

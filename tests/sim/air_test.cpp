@@ -26,6 +26,10 @@ TEST(Air, ThinsAsTheStandardAtmosphere) {
   EXPECT_NEAR(environment.air_density(5000.0), 0.7361, 1e-4);
   EXPECT_NEAR(environment.air_density(11'000.0), 0.3639, 1e-4);
   EXPECT_NEAR(environment.air_density(15'000.0), 0.1937, 1e-4);
+  EXPECT_NEAR(environment.air_density(25'000.0), 3.9466e-2, 1e-5);
+  EXPECT_NEAR(environment.air_density(32'000.0), 1.3225e-2, 1e-5);
+  EXPECT_NEAR(environment.air_density(47'000.0), 1.4275e-3, 2e-6);
+  EXPECT_NEAR(environment.air_density(51'000.0), 8.6160e-4, 2e-6);
   EnvironmentConfig uniform = standard_air();
   uniform.air.atmosphere = Atmosphere::kUniform;
   EXPECT_EQ(Environment(uniform, 1).air_density(5000.0), 1.225);

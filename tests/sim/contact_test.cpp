@@ -437,6 +437,57 @@ TEST(Contact, MovesOutWhoAppearsInsideSomething) {
   EXPECT_GT((truth.objects[0].position - truth.objects[1].position).norm(), 0.2 - 1e-8);
 }
 
+// Property: nor is anybody left in something where the way out of one thing leads into another: not
+// between two balls, between walls, in a box or among those who came before.
+TEST(Contact, FindsRoomForWhoAppears) {
+  const double radius = 0.1;
+  const auto ball = [](double x, double y, double appears) {
+    Target target = target_of(billiard_ball(Vec2(x, y), Vec2::Zero()));
+    target.appears = appears;
+    return target;
+  };
+  WorldConfig between = world_of({ball(-0.15, 0.1, 0.0), ball(0.15, 0.1, 0.0), ball(0.0, 0.1, 0.5)});
+  between.environment.ground = Ground{};
+  WorldConfig slot = world_of({ball(0.03, 0.5, 0.5)});
+  for (const double x : {-0.08, 0.08}) {
+    Wall wall;
+    wall.from = Vec2(x, -1.0);
+    wall.to = Vec2(x, 2.0);
+    slot.environment.walls.push_back(wall);
+  }
+  WorldConfig beneath = world_of({ball(0.0, 0.05, 0.5)});
+  beneath.environment.ground = Ground{};
+  SolidBox box;
+  box.center = Vec2(0.0, 0.3);
+  box.size = Vec2(1.0, 0.4);
+  beneath.environment.boxes = {box};
+  WorldConfig crowd;
+  for (int i = 0; i < 8; ++i) crowd.targets.push_back(ball(0.0, 1.0, 0.05 * i));
+  crowd.environment.ground = Ground{};
+  for (const WorldConfig& config : {between, slot, beneath, crowd}) {
+    World world(config, 1);
+    for (int i = 0; i <= 240; ++i) {
+      const TruthSnapshot truth = world.sample(i / 240.0);
+      for (const TruthState& one : truth.objects) {
+        for (const SolidBox& solid : config.environment.boxes) {
+          EXPECT_FALSE(solid.contains(one.position));
+        }
+        if (config.environment.ground) {
+          EXPECT_GT(one.position.y(), radius - 1e-6);
+        }
+        if (!config.environment.walls.empty()) {
+          EXPECT_GT(std::abs(one.position.x()), 0.08 + radius - 1e-6);
+        }
+        for (const TruthState& other : truth.objects) {
+          if (other.id <= one.id) continue;
+          EXPECT_GT((one.position - other.position).norm(), 2.0 * radius - 1e-6) << i;
+        }
+      }
+    }
+    EXPECT_FALSE(world.displacements().empty());
+  }
+}
+
 // Property: a pyramid of rough balls that is dropped by a little comes to rest, exactly: what hardly
 // slips sticks.
 TEST(Contact, LetsAPyramidComeToRest) {

@@ -92,7 +92,7 @@ TEST(Railway, MeetsOnACurveDescribedFromEitherEnd) {
       other = turned_round(other, end.position, end.heading * 180.0 / portable::kPi);
       other.start = line.length() - 160.0;
     }
-    World world(world_of({target_of(one), target_of(other)}), 1);
+    World world(seen_from_above({target_of(one), target_of(other)}), 1);
     const TruthSnapshot truth = world.sample(60.0);
     const double common = 200.0 / 150.0;
     for (const TruthState& train : truth.objects) {

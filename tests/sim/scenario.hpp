@@ -22,6 +22,13 @@ inline WorldConfig world_of(std::vector<Target> targets) {
   return world;
 }
 
+/// Without gravity, so that tracks lie flat.
+inline WorldConfig seen_from_above(std::vector<Target> targets) {
+  WorldConfig world = world_of(std::move(targets));
+  world.environment.gravity = 0.0;
+  return world;
+}
+
 /// A ball without aerodynamics.
 inline ThrownBall plain_ball(const Vec2& position, const Vec2& velocity) {
   ThrownBall ball;

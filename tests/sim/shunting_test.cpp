@@ -102,6 +102,54 @@ TEST(Shunting, MeetsAnotherDrivenTrain) {
   EXPECT_NEAR(world.events()[0].time, 20.0 + coasting, 0.05);
 }
 
+// Derived: a pull F on the first of n equal cars passes on F (n − i)/n to those behind the i-th.
+TEST(Shunting, RecordsTheForcesInItsCouplers) {
+  Train train = free_train(4, 80e3, 0.0, {phase_at(0.0, Force{20e3})});
+  train.couplers->damping = 2e5;
+  WorldConfig config = world_of({target_of(train)});
+  config.record.columns = {TruthColumn::kCouplerForce};
+  World world(config, 1);
+  const TruthSnapshot truth = world.sample(60.0);
+  ASSERT_EQ(truth.objects.size(), 4u);
+  const double least = 20e3 * 1e-3;  // the springs still swing a little
+  EXPECT_NEAR(truth.objects[0].coupler_force.value(), 15e3, least);
+  EXPECT_NEAR(truth.objects[1].coupler_force.value(), 10e3, least);
+  EXPECT_NEAR(truth.objects[2].coupler_force.value(), 5e3, least);
+  EXPECT_FALSE(truth.objects[3].coupler_force.has_value());
+}
+
+// Derived: buffers that touch are told of once, with the momentum (m₁ m₂/(m₁ + m₂)) Δv that makes
+// them equally fast; a buffer stop takes all.
+TEST(Shunting, TellsOfBuffersThatTouch) {
+  const auto events_of = [](std::vector<Target> targets) {
+    WorldConfig config = world_of(std::move(targets));
+    config.record.events = true;
+    World world(config, 1);
+    world.sample(60.0);
+    return world.events();
+  };
+  Train one = free_train(1, 100e3, 5.0);
+  one.couples = false;
+  Train other = one;
+  other.mass = 50e3;
+  other.speed = 0.0;
+  other.start = 100.0;
+  Train pusher = one;
+  pusher.ahead = {CarsAhead{100.0, 1, 50e3, 0.0, false}};
+  Train stopped = one;
+  stopped.buffer_stop = BufferStop{};
+  stopped.buffer_stop->place = 120.0;
+  const double passed = 100e3 * 50e3 / 150e3 * 5.0;
+  for (const auto& [events, impulse] :
+       {std::pair(events_of({target_of(one), target_of(other)}), passed),
+        std::pair(events_of({target_of(pusher)}), passed),
+        std::pair(events_of({target_of(stopped)}), 500e3)}) {
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].kind, EventKind::kContact);
+    EXPECT_NEAR(events[0].impulse.x(), -impulse, 1e-3 * impulse);
+  }
+}
+
 // Property: a stop that cannot be kept is said, once, whether or not events are recorded; one that
 // can be kept is not.
 TEST(Shunting, SaysThatAStopWasRunPast) {

@@ -237,6 +237,27 @@ TEST(ThrownBall, SurvivesCornersAndEnds) {
   }
 }
 
+// Derived: it is the air that takes the spin: in air of half the density half as fast, in a vacuum not
+// at all.
+TEST(ThrownBall, LosesItsSpinToTheAir) {
+  const auto left_of_spin = [](double density) {
+    ThrownBall ball = preset("baseball");
+    ball.velocity = Vec2(40.0, 0.0);
+    ball.spin = 200.0;
+    ball.drag = 0.0;
+    ball.drag_crisis.reset();
+    ball.lift = LiftModel::kNone;
+    WorldConfig config = world_of({target_of(ball)});
+    config.environment.gravity = 0.0;
+    config.environment.air.density = density;
+    World world(config, 1);
+    return world.sample(10.0).bodies.at(0).spin / 200.0;
+  };
+  EXPECT_NEAR(std::log(left_of_spin(1.2)), -10.0 * 40.0 / (30.0 * 44.704), 1e-6);
+  EXPECT_NEAR(std::log(left_of_spin(0.6)), -5.0 * 40.0 / (30.0 * 44.704), 1e-6);
+  EXPECT_EQ(left_of_spin(0.0), 1.0);
+}
+
 // Property: a surface that names a restitution overrides the ball's own.
 TEST(ThrownBall, TakesTheSurfacesRestitutionWhereItHasOne) {
   const auto rebound = [](const Ground& ground) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "sim/plane.hpp"
 #include "sim/portable_math.hpp"
 #include "sim/world.hpp"
 #include "tests/sim/scenario.hpp"
@@ -233,7 +234,7 @@ TEST(Train, StopsWithSpringsBetweenItsCars) {
 TEST(Train, NeverAcceleratesMoreThanItsTrackDemands) {
   Train train = single_car(0.0, 15.0, {phase_at(20.0, Accelerate{0.4}), phase_at(40.0, Brake{})});
   train.track = {Straight{100.0}, Curve{300.0, 90.0, {}, 60.0}, Curve{-250.0, 45.0, {}, 50.0}};
-  World world(world_of({target_of(train)}), 1);
+  World world(seen_from_above({target_of(train)}), 1);
   constexpr double kRate = 60.0;
   TruthState before = state_at(world, 0.0);
   for (int i = 1; i < 80 * 60; ++i) {
@@ -243,6 +244,70 @@ TEST(Train, NeverAcceleratesMoreThanItsTrackDemands) {
     EXPECT_LE(acceleration, 1.05 * (1.0 + speed * speed / 250.0)) << i / kRate;
     before = now;
   }
+}
+
+// Derived: a track that is drawn uphill in a side view is a grade: without resistance a = −g sin α,
+// and on a vertical loop v²/2 + g y stays. A flat track seen from above weighs nothing.
+TEST(Train, IsHeavyOnATrackDrawnUphill) {
+  for (const double slope : {5.0, -5.0, 20.0, 180.0}) {
+    Train train = free_cars(1, 50e3, 0.0, 30.0, {phase_at(0.0, Coast{})});
+    train.heading_deg = slope;
+    World world(world_of({target_of(train)}), 1);
+    const double angle = slope * portable::kPi / 180.0;
+    const double expected = slope == 180.0 ? 0.0 : -kStandardGravity * std::sin(angle);
+    const TruthState state = state_at(world, 2.0);
+    EXPECT_NEAR(state.acceleration.dot(direction(angle)), expected, 1e-12) << slope;
+    EXPECT_NEAR(state.velocity.dot(direction(angle)), 30.0 + 2.0 * expected, 1e-9) << slope;
+  }
+  Train train = free_cars(1, 50e3, 0.0, 70.0, {phase_at(0.0, Coast{})});
+  train.track = {Straight{100.0}, Curve{100.0, 360.0, {}, 0.0}, Straight{1000.0}};
+  World loop(world_of({target_of(train)}), 1);
+  WorldConfig above = world_of({target_of(train)});
+  above.environment.gravity = 0.0;
+  World flat(above, 1);
+  for (int i = 1; i <= 100; ++i) {
+    const TruthState state = state_at(loop, 0.2 * i);
+    EXPECT_NEAR(0.5 * state.velocity.squaredNorm() + kStandardGravity * state.position.y(), 2450.0,
+                1e-3);
+    EXPECT_NEAR(state_at(flat, 0.2 * i).velocity.norm(), 70.0, 1e-9);
+  }
+}
+
+// Property: a limit is kept in both directions by who can brake in time, and one that is not is
+// said, once.
+TEST(Train, SaysThatALimitWasExceeded) {
+  Train train = free_cars(1, 50e3, 1000.0, 0.0, {phase_at(0.0, TargetSpeed{-50.0})});
+  train.service_brake = 0.5;
+  train.max_power = 1e9;
+  train.speed_limits = {{0.0, 500.0, 20.0}};
+  World backwards(world_of({target_of(train)}), 1);
+  for (int i = 1; i <= 120; ++i) {
+    const TruthState state = state_at(backwards, i);
+    if (state.position.x() > 500.0 || state.position.x() < 0.0) continue;
+    EXPECT_GT(state.velocity.x(), -20.3) << i;
+  }
+  EXPECT_TRUE(backwards.events().empty());
+  train.start = 0.0;
+  train.speed = 60.0;
+  train.drive = {phase_at(0.0, TargetSpeed{60.0})};
+  train.speed_limits = {{300.0, 2000.0, 20.0}};
+  World late(world_of({target_of(train)}), 1);
+  state_at(late, 120.0);
+  ASSERT_EQ(late.events().size(), 1u);
+  EXPECT_EQ(late.events()[0].kind, EventKind::kOverspeed);
+  EXPECT_NEAR(late.events()[0].position.x(), 300.0, 2.0);
+}
+
+// Property: who stalls on the way to a stop holds his train.
+TEST(Train, HoldsWhereItStalls) {
+  Train train = stock("freight");
+  train.speed = 10.0;
+  train.grades = {{100.0, 1e5, 0.04}};
+  train.drive = {phase_at(0.0, StationStop{4000.0})};
+  World world(world_of({target_of(train)}), 1);
+  const TruthState stalled = state_at(world, 250.0);
+  EXPECT_EQ(stalled.velocity, Vec2(0.0, 0.0));
+  EXPECT_EQ(state_at(world, 300.0).position, stalled.position);
 }
 
 // T13. Property: the speed on a closed loop does not suffer from its curvature (Box2D with a

@@ -68,11 +68,11 @@ void warn_of_displacements(const TruthSource& truth) {
 
 void warn_of_overruns(const TruthSource& truth) {
   for (const WorldEvent& event : truth.events()) {
-    if (event.kind != EventKind::kOverrun) continue;
-    tell(
-        "ghtrack: warning: '{}' ran past its stop at {:.6g} s: it began to brake too late, or its "
-        "brakes are too weak",
-        truth.objects().at(static_cast<std::size_t>(event.object)).name, event.time);
+    const bool is_overspeed = event.kind == EventKind::kOverspeed;
+    if (!is_overspeed && event.kind != EventKind::kOverrun) continue;
+    tell("ghtrack: warning: '{}' {} at {:.6g} s: it began to brake too late, or its brakes are too weak",
+         truth.objects().at(static_cast<std::size_t>(event.object)).name,
+         is_overspeed ? "ran faster than a speed limit allows" : "ran past its stop", event.time);
   }
 }
 

@@ -151,10 +151,19 @@ void RunWriter::write_truth(const TruthSnapshot& truth) {
         std::lower_bound(truth.bodies.begin(), truth.bodies.end(), state.id,
                          [](const BodyPose& body, ObjectId id) { return body.id < id; });
     for (const TruthColumn column : truth_columns_) {
-      if (column == TruthColumn::kWind) {
-        rows_ << state.wind.x() << state.wind.y();
-      } else {
-        rows_ << (column == TruthColumn::kHeading ? part->angle : part->spin);
+      switch (column) {
+        case TruthColumn::kHeading:
+          rows_ << part->angle;
+          break;
+        case TruthColumn::kSpin:
+          rows_ << part->spin;
+          break;
+        case TruthColumn::kWind:
+          rows_ << state.wind.x() << state.wind.y();
+          break;
+        case TruthColumn::kCouplerForce:
+          rows_ << state.coupler_force;
+          break;
       }
     }
     rows_.end();
