@@ -36,6 +36,7 @@ void FrameMaker::add_tracks(const StepRecord& record) {
   shown.pairings = score.pairings();
   shown.gospa = score.gospa();
   shown.rmse = score.rmse();
+  shown.missed = score.missed();
   shown.regimes = score.by_regime();
 }
 

@@ -78,6 +78,9 @@ void RunningScore::add(const TruthSnapshot& truth, const TrackSnapshot& snapshot
 
   const GospaResult all = ghtrack::gospa(objects.positions, tracks.positions, options_);
   gospa_.add(all.gospa);
+  for (std::size_t i = 0; i < objects.ids.size(); ++i) {
+    missed_.add(i < all.matches.size() ? 0.0 : 1.0);
+  }
   for (const PointMatch& match : all.matches) {
     const double squared = match.distance * match.distance;
     const auto object = static_cast<std::size_t>(objects.ids[static_cast<std::size_t>(match.truth)]);

@@ -29,7 +29,10 @@ class RunningScore {
   /// RMSE of the positions of tracks that are within GOSPA's cut-off of their target [m].
   std::optional<double> rmse() const { return squared_errors_.root(); }
 
-  /// The same for each regime that there is, in the order of the objects; empty for one alone.
+  /// Share of the targets' instants at which no track was within that cut-off.
+  std::optional<double> missed() const { return missed_.value(); }
+
+  /// The same RMSE for each regime that there is, in the order of the objects; empty for one alone.
   std::vector<render::RegimeScore> by_regime() const;
 
   /// Who follows whom at the last instant. A pair stays together as long as it is within the
@@ -40,6 +43,7 @@ class RunningScore {
   GospaOptions options_;
   Mean gospa_;           // [m]
   Mean squared_errors_;  // [m²]
+  Mean missed_;          // 1: a target without a track, 0: with one
   std::vector<std::string> regimes_;                 // each once
   std::vector<std::size_t> regime_of_;               // by object
   std::vector<Mean> squared_errors_by_regime_;  // [m²]

@@ -71,7 +71,9 @@ nlohmann::json points(const std::vector<Vec2>& all) {
 nlohmann::json scenery(const render::SceneDrawing& drawing) {
   const render::Rectangle world = render::world_of(drawing);
   nlohmann::json json = {{"world", {point(world.min), point(world.max)}}};
-  for (const auto& rails : drawing.rails) json["rails"].push_back(points(rails));
+  if (!drawing.ground) {  // seen from the side, they would run through the cars
+    for (const auto& rails : drawing.rails) json["rails"].push_back(points(rails));
+  }
   for (const Wall& wall : drawing.walls) json["walls"].push_back({point(wall.from), point(wall.to)});
   for (const SolidBox& box : drawing.boxes) {
     const auto corners = box.corners();
@@ -82,7 +84,7 @@ nlohmann::json scenery(const render::SceneDrawing& drawing) {
     if (sensor.site) json["sensors"].back()["site"] = point(*sensor.site);
   }
   if (drawing.ground) {
-    json["ground"] = points(drawing.ground->profile);
+    json["ground"] = points(drawing.ground->outline());
     json["ground_height"] = drawing.ground->height;
   }
   return json;

@@ -443,6 +443,10 @@ lab.WorldView = class {
   drawNames() {
     const { pen, state } = this;
     const taken = [];
+    const spots = state.objects.map((object, i) => {
+      const at = state.truth.at(i, state.time);
+      return at && [this.x(at[0]), this.y(at[1])];
+    });
     pen.font = "600 13px system-ui, sans-serif";
     pen.textAlign = "left";
     state.objects.forEach((object, i) => {
@@ -457,8 +461,13 @@ lab.WorldView = class {
       const inside = (value, most) => Math.max(2, Math.min(value, most));
       const places = aside.flatMap((dx) => [[dx, -11], [dx, 21]]).concat([[aside[0], -27], [aside[0], 37]])
         .map(([dx, dy]) => [inside(px + dx, this.width - width - 2), inside(py + dy, this.height - 24)]);
-      const isFree = ([left, base]) => !taken.some(([x, y, w]) =>
-        left < x + w + 4 && left + width + 4 > x && Math.abs(base - y) < 15);
+      // A name that is nearer to another object would be taken for that one's.
+      const distance = ([x, y], [left, base]) => Math.hypot(Math.max(left - x, 0, x - left - width),
+        Math.max(base - 11 - y, 0, y - base - 3));
+      const isNearest = (place) => !spots.some((spot, other) => spot && other !== i &&
+        distance(spot, place) < distance([px, py], place));
+      const isFree = (place) => isNearest(place) && !taken.some(([x, y, w]) =>
+        place[0] < x + w + 4 && place[0] + width + 4 > x && Math.abs(place[1] - y) < 15);
       // In a crowd a name that has no room is left out: two on top of each other say nothing.
       const place = places.find(isFree) ?? (i === state.selected ? places[0] : null);
       if (!place) return;

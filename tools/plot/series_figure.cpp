@@ -133,11 +133,12 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
   Panel rate =
       panel_of(series, labels, title("rate"), fmt::format("d{}/dt", axis.empty() ? "x" : axis),
                "dx" + suffix, Mark::kLine);
-  const bool has_rate = std::any_of(rate.curves.begin(), rate.curves.end(), [](const Curve& curve) {
-    return std::any_of(curve.y.begin(), curve.y.end(),
-                       [](double value) { return value != 0.0 && std::isfinite(value); });
+  // Who estimates none says 0 throughout; places on a row have none.
+  std::erase_if(rate.curves, [](const Curve& curve) {
+    return std::none_of(curve.y.begin(), curve.y.end(),
+                        [](double value) { return value != 0.0 && std::isfinite(value); });
   });
-  if (has_rate) figure.panels.push_back(std::move(rate));  // places on a row have none
+  if (!rate.curves.empty()) figure.panels.push_back(std::move(rate));
 }
 
 }  // namespace

@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::u32string_view kBetween = U"    ";
 
+/// "missed 31 %", which the scores of what was followed do not tell; empty if hardly anything was.
+std::u32string missed_text(const PanelFrame& panel) {
+  if (!panel.missed || *panel.missed < 0.01) return {};
+  return U"missed " + number_text("%.0f %%", 100.0 * *panel.missed);
+}
+
 std::u32string scores_of(const PanelFrame& panel) {
   std::u32string scores;
   if (panel.rmse) scores += U"RMSE " + number_text("%.2f m", *panel.rmse);
@@ -96,25 +102,47 @@ void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawi
     canvas.ring({area.left + style.length(17), first - 0.36 * letters}, style.length(9), color,
                 style.length(2));
   }
-  /// Writes something at the right edge, and something else as far as there is room.
-  const auto line = [&](double baseline, const Font& font, int height, const std::string& text,
-                        Color ink, const std::u32string& at_right, const Font& right_font) {
-    canvas.text(right_font, at_right, height, {area.right() - gap, baseline}, theme.text,
-                Canvas::Align::kRight);
-    const double room = area.right() - 2.0 * gap - right_font.width(at_right, height) - left;
-    if (room < 3.0 * height) return;
-    canvas.text(font, font.fitted(drawable(text), height, static_cast<int>(room)), height,
-                {left, baseline}, ink);
-  };
   std::u32string regimes;
   for (const RegimeScore& score : panel.regimes) {
     if (!regimes.empty()) regimes += U"   ";
     regimes += drawable(score.regime, 12) + U" " +
                (score.rmse ? number_text("%.2f m", *score.rmse) : U"–");
   }
-  line(first, fonts.bold, letters, drawing.name + (leads ? " – leads" : ""), theme.text,
-       scores_of(panel), leads ? fonts.bold : fonts.regular);
-  line(second, fonts.regular, small, drawing.gains, theme.muted_text, regimes, fonts.regular);
+  // Who it is comes first; what finds no room beside that goes below.
+  const Font& score_font = leads ? fonts.bold : fonts.regular;
+  const std::u32string name = drawable(drawing.name);
+  const double room = area.right() - gap - left;
+  const auto fits = [&](const std::u32string& head, const std::u32string& beside) {
+    return fonts.bold.width(head, letters) + gap + score_font.width(beside, letters) <= room;
+  };
+  std::u32string head = leads ? name + U" – leads" : name;
+  std::u32string scores = scores_of(panel);
+  std::u32string below = regimes;
+  if (const std::u32string missed = missed_text(panel); !missed.empty()) {
+    below = below.empty() ? missed : missed + U"   " + below;
+  }
+  if (!fits(head, scores)) head = name;
+  if (!fits(head, scores) && panel.rmse && panel.gospa) {
+    scores = U"RMSE " + number_text("%.2f m", *panel.rmse);
+    const std::u32string gospa = U"GOSPA " + number_text("%.2f m", *panel.gospa);
+    const double taken = fonts.regular.width(drawable(drawing.gains), small) + gap;
+    if (below.empty() && taken + fonts.regular.width(gospa, small) <= room) below = gospa;
+  }
+  if (!fits(head, scores) && panel.rmse) scores = number_text("%.2f m", *panel.rmse);
+
+  /// Writes something at the right edge, and something else as far as there is room.
+  const auto line = [&](double baseline, const Font& font, int height, const std::u32string& text,
+                        Color ink, const std::u32string& at_right, const Font& right_font) {
+    canvas.text(right_font, at_right, height, {area.right() - gap, baseline}, theme.text,
+                Canvas::Align::kRight);
+    const double left_over = room - gap - right_font.width(at_right, height);
+    if (left_over < 3.0 * height) return;
+    canvas.text(font, font.fitted(text, height, static_cast<int>(left_over)), height,
+                {left, baseline}, ink);
+  };
+  line(first, fonts.bold, letters, head, theme.text, scores, score_font);
+  line(second, fonts.regular, small, drawable(drawing.gains), theme.muted_text, below,
+       fonts.regular);
 }
 
 }  // namespace ghtrack::render

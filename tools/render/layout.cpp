@@ -125,8 +125,11 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
     layout.headers.push_back({place.left, place.top, place.width, header});
     layout.panels.push_back({place.left, place.top + header, place.width, place.height - header});
   }
-  layout.plots = best.has_place_left ? best.place(count)
-                                     : Viewport{0.0, layout.legend.top - strip, width, strip};
+  layout.plots = {0.0, layout.legend.top - strip, width, strip};
+  if (best.has_place_left) {
+    layout.plots = best.place(count);
+    layout.plots.width = area.right() - layout.plots.left;
+  }
   for (const Viewport& panel : layout.panels) {
     layout.close_ups.push_back(corners_of(panel, options.close_ups, style));
   }

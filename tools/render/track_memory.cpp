@@ -87,7 +87,7 @@ std::u32string TrackMemory::label_text(const Trace& trace) const {
   if (!label.empty() && !trace.object) text += U" " + label;
   const double speed = track.velocity.norm();
   if (!(speed < 1e6)) return text;
-  return text + U" " + number_text(speed < 99.95 ? "%.1f m/s" : "%.0f m/s", speed);
+  return text + U" · " + number_text(speed < 99.95 ? "%.1f m/s" : "%.0f m/s", speed);
 }
 
 /// No picture resolves more than so many points of a trail.

@@ -142,6 +142,7 @@ struct PanelFrame {
   std::vector<Pairing> pairings;  // of that snapshot
   std::optional<double> gospa;    // [m], running; shown if given
   std::optional<double> rmse;     // [m] of the positions, running; shown and plotted if given
+  std::optional<double> missed = {};  // share of the targets' instants without a track; shown from 1 % on
   std::vector<RegimeScore> regimes;  // the same for each kind of object, if there are several
 };
 

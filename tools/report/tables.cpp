@@ -44,17 +44,40 @@ std::string css_of(Significance significance) {
   return "";
 }
 
-/// "0.318 ± 0.004, best; predicted 0.31": what one filter did.
+std::string_view verdict_of(Significance significance) {
+  switch (significance) {
+    case Significance::kBest:
+      return "best";
+    case Significance::kTied:
+      return "tied";
+    case Significance::kUndecided:
+      return "undecided";
+    case Significance::kTooFew:
+      return "few runs";
+    case Significance::kNone:
+    case Significance::kWorse:
+      break;
+  }
+  return "";
+}
+
+/// "0.318 ± 0.004, best; predicted 0.31": what one filter did. Where few runs make most of the mean,
+/// their median.
 Json value_cell(const ComparisonRow* row) {
   if (row == nullptr) {
     return {{"text", ""}, {"half", ""}, {"verdict", ""},
             {"css", ""},  {"sort", ""}, {"predicted", ""}};
   }
+  const double typical = row->has_heavy_tails ? row->median : row->mean;
+  const auto& interval = row->has_heavy_tails ? row->median_ci95 : row->ci95;
   const std::string half =
-      row->ci95 ? fmt::format("±{:.1g}", 0.5 * (row->ci95->high - row->ci95->low)) : "";
-  return {{"text", number(row->mean)},       {"half", half},
-          {"verdict", css_of(row->significance)}, {"css", css_of(row->significance)},
-          {"sort", sort_key(row->mean)},     {"predicted", number(row->predicted)}};
+      interval ? fmt::format("±{:.1g}", 0.5 * (interval->high - interval->low)) : "";
+  return {{"text", number(typical) + (row->has_heavy_tails ? "~" : "")},
+          {"half", half},
+          {"verdict", verdict_of(row->significance)},
+          {"css", css_of(row->significance)},
+          {"sort", sort_key(typical)},
+          {"predicted", number(row->predicted)}};
 }
 
 Json value_cells(const std::vector<std::size_t>& filters, const RowsByFilter& rows) {

@@ -70,6 +70,13 @@ discrete_bayes::Belief belief_of(const AxisFilter& filter) {
   return histogram != nullptr ? histogram->belief() : discrete_bayes::Belief();
 }
 
+/// What an estimate is off, on a ring of places the short way round.
+double error_of(double estimate, double truth, const SeriesScene& scene) {
+  const double error = estimate - truth;
+  const auto* const walk = std::get_if<WalkSeries>(&scene.data);
+  return walk == nullptr ? error : std::remainder(error, static_cast<double>(walk->map.size()));
+}
+
 class MeanSquare {
  public:
   void add(double error) {
@@ -144,8 +151,9 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
       ++used;
     }
     if (now.truth) {
-      all.add(row.x - *now.truth);
-      if (!is_guess) filtered.add(row.x - *now.truth);
+      const double error = error_of(row.x, *now.truth, scene);
+      all.add(error);
+      if (!is_guess) filtered.add(error);
     }
     track.rows.push_back(row);
   }

@@ -74,9 +74,9 @@ TEST(TrackMemory, NumbersTracksWhereNamesDoNotTellThemApart) {
     memory.remember(frame, panel);
     return memory.traces().at(track).label;
   };
-  EXPECT_EQ(label_of(0.0, 24, named[1].id), U"object 1 0.0 m/s");
-  EXPECT_EQ(label_of(1.0, 89, named[1].id), U"object 1 #89 0.0 m/s");
-  EXPECT_EQ(label_of(2.0, 90, std::nullopt), U"#90 0.0 m/s");
+  EXPECT_EQ(label_of(0.0, 24, named[1].id), U"object 1 · 0.0 m/s");
+  EXPECT_EQ(label_of(1.0, 89, named[1].id), U"object 1 #89 · 0.0 m/s");
+  EXPECT_EQ(label_of(2.0, 90, std::nullopt), U"#90 · 0.0 m/s");
 }
 
 // Property: a trail goes through what was said of every scan, however few of them a frame is drawn at.
