@@ -86,7 +86,8 @@ lab.Controls = class {
     this.trackers = [lab.copy(this.scene.tracker)];
     this.trackers[0].filters ??= {};
     this.side = 0;
-    this.chosenClass = Object.keys(this.trackers[0].filters)[0] ?? "default";
+    const classes = Object.keys(this.trackers[0].filters);
+    this.chosenClass = classes.find((name) => name !== "default") ?? "default";
     this.show();
   }
 
