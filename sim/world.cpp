@@ -588,10 +588,10 @@ double World::Scenery::move_out(States& at, std::size_t target,
   std::optional<Vec2> nearest = free_place_from(began, others);
   constexpr int kMostRings = 400;
   constexpr int kDirections = 24;
-  const double step = 0.5 * movers[target].round().radius;
+  const double spacing = 0.5 * movers[target].round().radius;
   for (int ring = 1; !nearest && ring <= kMostRings; ++ring) {
     for (int i = 0; i < kDirections; ++i) {
-      const Vec2 start = began + ring * step * direction(2.0 * portable::kPi * i / kDirections);
+      const Vec2 start = began + ring * spacing * direction(2.0 * portable::kPi * i / kDirections);
       const std::optional<Vec2> found = free_place_from(start, everyone);
       if (!found) continue;
       if (!nearest || (*found - began).norm() < (*nearest - began).norm()) nearest = found;

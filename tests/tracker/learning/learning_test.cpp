@@ -135,8 +135,9 @@ TEST(Learning, ScalesWithTheData) {
        {std::tuple(1024.0, 0.125, 1e-12), std::tuple(1.0 / 65536.0, 64.0, 1e-12),
         std::tuple(1000.0, 0.01, 1e-3), std::tuple(1e-5, 3600.0, 1e-3)}) {
     const LearnedTracker other = learned_from(scaled(scans, length, time), time);
-    const auto expect_ratio = [&](double actual, double from, double ratio) {
-      EXPECT_NEAR(actual / (from * ratio), 1.0, error);
+    const double most = error;
+    const auto expect_ratio = [most](double actual, double from, double ratio) {
+      EXPECT_NEAR(actual / (from * ratio), 1.0, most);
     };
     const LearnedSensor& a = usual.sensors[0];
     const LearnedSensor& b = other.sensors[0];
