@@ -97,7 +97,7 @@ class TrackMotion {
   void let_stand(States& next, double time) const;
   using Fault = bool (TrainModel::*)(const State&, std::size_t) const;
   std::vector<bool> groups_with(Fault fault) const;
-  void log_new(Fault fault, EventKind kind, const std::vector<bool>& had, double time) const;
+  void log_new(Fault fault, EventKind kind, std::vector<bool>& had, double time) const;
 
   std::span<const TrainOnTrack> trains_;
   States now_;
@@ -349,9 +349,9 @@ std::vector<bool> TrackMotion::groups_with(Fault fault) const {
   return result;
 }
 
-void TrackMotion::log_new(Fault fault, EventKind kind, const std::vector<bool>& had,
-                          double time) const {
-  const std::vector<bool> have = groups_with(fault);
+/// Tells of groups that were not at fault before and are now; `had` becomes what is.
+void TrackMotion::log_new(Fault fault, EventKind kind, std::vector<bool>& had, double time) const {
+  std::vector<bool> have = groups_with(fault);
   auto place = std::size_t{0};
   for (std::size_t i = 0; i < trains_.size(); ++i) {
     for (std::size_t group = 0; group < model(i).groups_.size(); ++group, ++place) {
@@ -362,15 +362,16 @@ void TrackMotion::log_new(Fault fault, EventKind kind, const std::vector<bool>& 
                                  Vec2::Zero(), kind, is_seen ? static_cast<int>(first) : 0});
     }
   }
+  had = std::move(have);
 }
 
 void TrackMotion::run(double from, double to, std::vector<TrainCoupling>* couplings) {
   double time = from;
+  std::vector<bool> overrun = groups_with(&TrainModel::has_overrun);
+  std::vector<bool> overspeed = groups_with(&TrainModel::has_overspeed);
   while (time < to) {
     for (std::size_t i = 0; i < trains_.size(); ++i) model(i).join(now_[i], time, trains_[i].log);
     touch_and_couple(time, couplings);
-    const std::vector<bool> had_overrun = groups_with(&TrainModel::has_overrun);
-    const std::vector<bool> had_overspeed = groups_with(&TrainModel::has_overspeed);
     for (std::size_t i = 0; i < trains_.size(); ++i) model(i).decide(now_[i], time);
     const double end = end_of_step(time, to);
     double step = end - time;
@@ -403,8 +404,8 @@ void TrackMotion::run(double from, double to, std::vector<TrainCoupling>* coupli
       couplings->push_back(coupling_of(*pair, time));
       couplings->back().kind = EventKind::kContact;
     }
-    log_new(&TrainModel::has_overrun, EventKind::kOverrun, had_overrun, time);
-    log_new(&TrainModel::has_overspeed, EventKind::kOverspeed, had_overspeed, time);
+    log_new(&TrainModel::has_overrun, EventKind::kOverrun, overrun, time);
+    log_new(&TrainModel::has_overspeed, EventKind::kOverspeed, overspeed, time);
   }
   for (std::size_t i = 0; i < trains_.size(); ++i) *trains_[i].state = std::move(now_[i]);
 }

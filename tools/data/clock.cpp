@@ -13,8 +13,6 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kDay = 86400.0;
-
 /// Reads a text from front to back.
 class Cursor {
  public:

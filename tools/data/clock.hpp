@@ -9,6 +9,8 @@
 
 namespace ghtrack {
 
+constexpr double kDay = 86400.0;  // [s]
+
 /// What stands first in a date whose year stands last, such as 3/4/2024.
 enum class DateOrder { kDayFirst, kMonthFirst };
 

@@ -28,22 +28,11 @@ struct Measured {
   std::optional<GeographicColumns> degrees;
 };
 
-/// The column of this name, whatever its unit and the size of its letters.
-std::optional<std::size_t> axis_column(const Table& table, const std::string& name) {
-  if (const auto exact = table.column(name)) return exact;
-  const std::vector<Heading>& headings = table.headings();
-  const auto found = std::find_if(headings.begin(), headings.end(), [&](const Heading& heading) {
-    return heading.base == name;
-  });
-  if (found == headings.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - headings.begin());
-}
-
 /// Columns whose names are a stem with the suffix of each axis; none if there are fewer than two.
 std::vector<std::size_t> by_axis(const Table& table, const std::string& stem) {
   std::vector<std::size_t> columns;
   for (const char* axis : kAxes) {
-    const auto found = axis_column(table, stem + axis);
+    const auto found = table.column_with_base(stem + axis);
     if (!found) break;
     columns.push_back(*found);
   }

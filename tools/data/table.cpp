@@ -306,13 +306,18 @@ std::optional<std::size_t> Table::column(std::string_view name) const {
   return static_cast<std::size_t>(found - headings_.begin());
 }
 
-std::optional<std::size_t> Table::column_with_unit(std::string_view name) const {
+std::optional<std::size_t> Table::column_with_base(std::string_view name) const {
   if (const auto exact = column(name)) return exact;
-  const auto found = std::find_if(headings_.begin(), headings_.end(), [&](const Heading& heading) {
-    return heading.unit && heading.base == name;
-  });
+  const auto found = std::find_if(headings_.begin(), headings_.end(),
+                                  [&](const Heading& heading) { return heading.base == name; });
   if (found == headings_.end()) return std::nullopt;
   return static_cast<std::size_t>(found - headings_.begin());
+}
+
+std::optional<std::size_t> Table::column_with_unit(std::string_view name) const {
+  const auto found = column_with_base(name);
+  const bool is_meant = found && (headings_[*found].unit || headings_[*found].text == name);
+  return is_meant ? found : std::nullopt;
 }
 
 std::size_t Table::required(Role role) {

@@ -45,6 +45,9 @@ class Table {
   /// The column of exactly this name.
   std::optional<std::size_t> column(std::string_view name) const;
 
+  /// The same, or of this name whatever its unit and the size of its letters.
+  std::optional<std::size_t> column_with_base(std::string_view name) const;
+
   /// The same, or of this name before a unit, as "dt (ms)".
   std::optional<std::size_t> column_with_unit(std::string_view name) const;
 

@@ -10,8 +10,6 @@ namespace ghtrack {
 
 namespace {
 
-constexpr double kDay = 86400.0;
-
 /// The column of the times; one of dates alone will do.
 std::optional<std::size_t> time_column(const Table& table) {
   if (const auto time = table.columns().find(Role::kTime)) return time;

@@ -45,6 +45,12 @@ struct ComparisonRow {
   std::optional<Interval> difference_ci95;  // paired by runs; absent for the best itself
   Significance significance = Significance::kNone;
   std::optional<double> runs_to_decide;  // where it is undecided: about so many would
+
+  /// What counts of the two, and its interval.
+  double typical() const { return has_heavy_tails ? median : mean; }
+  const std::optional<Interval>& typical_ci95() const {
+    return has_heavy_tails ? median_ci95 : ci95;
+  }
 };
 
 /// RMSE of position over all objects of a regime, as it develops over the scene's time.

@@ -86,9 +86,9 @@ std::string title_of(const ComparedCell& cell) {
 
 /// "0.123 ±0.004 *": what one filter did, as the words above the table say.
 std::string cell_text(const ComparisonRow& row) {
-  std::string text = fmt::format("{:.3g}", row.has_heavy_tails ? row.median : row.mean);
+  std::string text = fmt::format("{:.3g}", row.typical());
   if (row.has_heavy_tails) text += "~";
-  if (const auto& interval = row.has_heavy_tails ? row.median_ci95 : row.ci95) {
+  if (const auto& interval = row.typical_ci95()) {
     text += fmt::format(" ±{:.1g}", 0.5 * (interval->high - interval->low));
   }
   switch (row.significance) {

@@ -17,11 +17,12 @@ std::u32string missed_text(const PanelFrame& panel) {
   return U"missed " + number_text("%.0f %%", 100.0 * *panel.missed);
 }
 
+std::u32string metres(double length) { return number_text("%.2f m", length); }
+
 std::u32string scores_of(const PanelFrame& panel) {
   std::u32string scores;
-  if (panel.rmse) scores += U"RMSE " + number_text("%.2f m", *panel.rmse);
-  if (panel.gospa)
-    scores += (scores.empty() ? U"" : U"   ") + (U"GOSPA " + number_text("%.2f m", *panel.gospa));
+  if (panel.rmse) scores += U"RMSE " + metres(*panel.rmse);
+  if (panel.gospa) scores += (scores.empty() ? U"" : U"   ") + (U"GOSPA " + metres(*panel.gospa));
   return scores;
 }
 
@@ -106,7 +107,7 @@ void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawi
   for (const RegimeScore& score : panel.regimes) {
     if (!regimes.empty()) regimes += U"   ";
     regimes += drawable(score.regime, 12) + U" " +
-               (score.rmse ? number_text("%.2f m", *score.rmse) : U"–");
+               (score.rmse ? metres(*score.rmse) : U"–");
   }
   // Who it is comes first; what finds no room beside that goes below.
   const Font& score_font = leads ? fonts.bold : fonts.regular;
@@ -123,12 +124,12 @@ void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawi
   }
   if (!fits(head, scores)) head = name;
   if (!fits(head, scores) && panel.rmse && panel.gospa) {
-    scores = U"RMSE " + number_text("%.2f m", *panel.rmse);
-    const std::u32string gospa = U"GOSPA " + number_text("%.2f m", *panel.gospa);
+    scores = U"RMSE " + metres(*panel.rmse);
+    const std::u32string gospa = U"GOSPA " + metres(*panel.gospa);
     const double taken = fonts.regular.width(drawable(drawing.gains), small) + gap;
     if (below.empty() && taken + fonts.regular.width(gospa, small) <= room) below = gospa;
   }
-  if (!fits(head, scores) && panel.rmse) scores = number_text("%.2f m", *panel.rmse);
+  if (!fits(head, scores) && panel.rmse) scores = metres(*panel.rmse);
 
   /// Writes something at the right edge, and something else as far as there is room.
   const auto line = [&](double baseline, const Font& font, int height, const std::u32string& text,

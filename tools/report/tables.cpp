@@ -29,36 +29,12 @@ Json sort_key(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(fmt::format("{:.6g}", *value)) : Json("");
 }
 
-std::string css_of(Significance significance) {
-  switch (significance) {
-    case Significance::kBest:
-      return "best";
-    case Significance::kTied:
-      return "tied";
-    case Significance::kNone:
-    case Significance::kTooFew:
-    case Significance::kUndecided:
-    case Significance::kWorse:
-      break;
-  }
-  return "";
+bool leads(Significance significance) {
+  return significance == Significance::kBest || significance == Significance::kTied;
 }
 
-std::string_view verdict_of(Significance significance) {
-  switch (significance) {
-    case Significance::kBest:
-      return "best";
-    case Significance::kTied:
-      return "tied";
-    case Significance::kUndecided:
-      return "undecided";
-    case Significance::kTooFew:
-      return "few runs";
-    case Significance::kNone:
-    case Significance::kWorse:
-      break;
-  }
-  return "";
+std::string_view css_of(Significance significance) {
+  return leads(significance) ? to_string(significance) : "";
 }
 
 /// "0.318 ± 0.004, best; predicted 0.31": what one filter did. Where few runs make most of the mean,
@@ -68,15 +44,15 @@ Json value_cell(const ComparisonRow* row) {
     return {{"text", ""}, {"half", ""}, {"verdict", ""},
             {"css", ""},  {"sort", ""}, {"predicted", ""}};
   }
-  const double typical = row->has_heavy_tails ? row->median : row->mean;
-  const auto& interval = row->has_heavy_tails ? row->median_ci95 : row->ci95;
+  const auto& interval = row->typical_ci95();
+  const bool is_worse = row->significance == Significance::kWorse;  // as most are
   const std::string half =
       interval ? fmt::format("±{:.1g}", 0.5 * (interval->high - interval->low)) : "";
-  return {{"text", number(typical) + (row->has_heavy_tails ? "~" : "")},
+  return {{"text", number(row->typical()) + (row->has_heavy_tails ? "~" : "")},
           {"half", half},
-          {"verdict", verdict_of(row->significance)},
+          {"verdict", is_worse ? "" : to_string(row->significance)},
           {"css", css_of(row->significance)},
-          {"sort", sort_key(typical)},
+          {"sort", sort_key(row->typical())},
           {"predicted", number(row->predicted)}};
 }
 
