@@ -51,7 +51,7 @@ Eigen::Matrix3d FlatLens::homography(const ImageSize& image) const {
   const double scale = 1.0 / metres_per_pixel;
   const Vec2 middle = middle_of(image);
   Eigen::Matrix3d h;
-  h << scale, 0.0, middle.x() - scale * centre.x(),   //
+  h << scale, 0.0, middle.x() - scale * centre.x(),  //
       0.0, -scale, middle.y() + scale * centre.y(),  //
       0.0, 0.0, 1.0;
   return h;
@@ -147,8 +147,8 @@ std::optional<Detection> Camera::report_of(const Vec2& pixel) const {
   detection.covariance = variance * point->per_pixel * point->per_pixel.transpose();
   const auto homography =
       std::visit([&](const auto& through) { return through.homography(image); }, lens);
-  detection.measured = Measurement{reported, Eigen::Matrix2d(variance * Eigen::Matrix2d::Identity()),
-                                   PixelModel{homography}};
+  detection.measured = Measurement{
+      reported, Eigen::Matrix2d(variance * Eigen::Matrix2d::Identity()), PixelModel{homography}};
   return detection;
 }
 

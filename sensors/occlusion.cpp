@@ -51,9 +51,7 @@ class Shape {
   }
 
  private:
-  Vec2 to_local(const Vec2& offset) const {
-    return {offset.dot(along_), cross(along_, offset)};
-  }
+  Vec2 to_local(const Vec2& offset) const { return {offset.dot(along_), cross(along_, offset)}; }
 
   Vec2 centre_;
   bool is_box_;

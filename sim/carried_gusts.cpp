@@ -10,8 +10,8 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kReach = 1e5;                // places up to so far downwind have a past [m]
-constexpr std::size_t kMostBlocks = 20'000;   // about 20 MB
+constexpr double kReach = 1e5;               // places up to so far downwind have a past [m]
+constexpr std::size_t kMostBlocks = 20'000;  // about 20 MB
 
 std::uint64_t key_of_line(std::size_t axis, std::int64_t node) {
   return combine(combine(key_of("carried"), axis), static_cast<std::uint64_t>(node));
@@ -44,8 +44,7 @@ Vec2 CarriedGusts::at(const Vec2& position, double time) {
       if (weights[i] == 0.0) continue;
       const Values& values =
           block_at(axis, static_cast<std::int64_t>(node) + static_cast<std::int64_t>(i), index);
-      const double value =
-          values[in_block] + fraction * (values[in_block + 1] - values[in_block]);
+      const double value = values[in_block] + fraction * (values[in_block + 1] - values[in_block]);
       gust += weights[i] * value * axes_[axis].direction;
     }
   }

@@ -11,11 +11,11 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kFewSweeps = 200;   // that most need, from a good guess
+constexpr int kFewSweeps = 200;  // that most need, from a good guess
 constexpr int kMostSweeps = 2000;
-constexpr int kPatience = 100;    // sweeps in which the change must halve
-constexpr double kExact = 1e-11;  // of the largest rate
-constexpr int kLeapEvery = 8;     // sweeps
+constexpr int kPatience = 100;              // sweeps in which the change must halve
+constexpr double kExact = 1e-11;            // of the largest rate
+constexpr int kLeapEvery = 8;               // sweeps
 constexpr std::size_t kMostUnknowns = 100;  // of a leap, or of pivoting
 
 /// One touch at work on its bodies.

@@ -24,9 +24,9 @@ constexpr double kHeld = 1e-6;       // a smaller acceleration is a rounding err
 constexpr double kLongestTogether = 1.0 / 240.0;  // step of bodies that are pressed together [s]
 constexpr double kShortestStep = 1e-6;            // where hits follow each other without end [s]
 constexpr int kMostSamples = 2000;                // of a step, in the search for the first touch
-constexpr int kMostReturns = 8;       // of two to each other in a step; then they stay together
-constexpr int kMostHits = 100;        // of each body in a step; then nothing bounces any more
-constexpr int kMostSteps = 200;       // from hit to hit, the same; then hits are passed over
+constexpr int kMostReturns = 8;  // of two to each other in a step; then they stay together
+constexpr int kMostHits = 100;   // of each body in a step; then nothing bounces any more
+constexpr int kMostSteps = 200;  // from hit to hit, the same; then hits are passed over
 
 /// What moves on regardless, at an instant.
 struct Passer {
@@ -312,8 +312,8 @@ class Encounter {
     for (std::size_t i = 1; i < closing.size(); ++i) {
       const auto& [speed, pair] = closing[i];
       if (speed < (1.0 - kSameSpeed) * closing.front().first) break;
-      const bool shares = involved[at(pair.one)] ||
-                          (pair.kind == Partner::kRound && involved[at(pair.other)]);
+      const bool shares =
+          involved[at(pair.one)] || (pair.kind == Partner::kRound && involved[at(pair.other)]);
       if (!shares || !gives_way(pair) || !bounces(now, pair, speed)) continue;
       involve(pair, involved);
       struck.push_back(pair);
@@ -382,8 +382,8 @@ class Encounter {
     record(now, pair, impulse);
   }
 
-  /// Moves apart what overlaps by more than a touch, as where a path has jumped because its step was
-  /// divided, or hits were passed over.
+  /// Moves apart what overlaps by more than a touch, as where a path has jumped because its step
+  /// was divided, or hits were passed over.
   void part(Instant& now) const {
     const auto overlaps = [&](const Pair& pair) { return gap(now, pair).distance < -kTouching; };
     if (std::none_of(pairs_.begin(), pairs_.end(), overlaps)) return;
@@ -504,8 +504,8 @@ class Encounter {
     return heap;
   }
 
-  /// Those that forces press together or that come back to each other again and again, with all that
-  /// they are in touch with.
+  /// Those that forces press together or that come back to each other again and again, with all
+  /// that they are in touch with.
   Heap find_heap(const Instant& now) {
     Heap heap = touching(now, kClinging);
     if (heap.bodies.empty()) return heap;
@@ -725,9 +725,9 @@ class Encounter {
   /// step. Overlaps go before gaps.
   void close_gaps(std::vector<FlightState>& states, const Heap& heap,
                   const std::vector<Passer>& passing) const {
-    constexpr int kMostRounds = 5;     // normals turn with what is shifted
-    constexpr double kSeen = 1e-5;     // what presses is no farther apart [m]
-    constexpr double kExact = 1e-14;   // [m]
+    constexpr int kMostRounds = 5;    // normals turn with what is shifted
+    constexpr double kSeen = 1e-5;    // what presses is no farther apart [m]
+    constexpr double kExact = 1e-14;  // [m]
     for (int round = 0; round < kMostRounds; ++round) {
       std::vector<Pushed> pushed = pushed_by(heap);
       std::vector<Touch> touches(heap.pairs.size());
@@ -951,7 +951,8 @@ class Encounter {
     if (pairs.empty()) return std::nullopt;
     const int samples = samples_of(pairs, start, end);
     std::vector<double> times{end};
-    for (int k = 1; k < samples; ++k) times.push_back(start.time + (end - start.time) * k / samples);
+    for (int k = 1; k < samples; ++k)
+      times.push_back(start.time + (end - start.time) * k / samples);
     // In between, paths are to be smooth.
     for (const Impact& impact : impacts) times.push_back(impact.time);
     std::sort(times.begin(), times.end());

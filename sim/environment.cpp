@@ -43,7 +43,8 @@ double Environment::standard_thinning(double height) {
   if (height <= kTropopause) return thinning;
   thinning *= portable::exp((kTropopause - std::min(height, kWarming)) / 6341.62);
   if (height <= kWarming) return thinning;
-  thinning *= portable::pow(1.0 + 0.001 / 216.65 * (std::min(height, kWarmer) - kWarming), -35.1632);
+  thinning *=
+      portable::pow(1.0 + 0.001 / 216.65 * (std::min(height, kWarmer) - kWarming), -35.1632);
   if (height <= kWarmer) return thinning;
   const double above = std::min(height, kStratopause) - kWarmer;
   thinning *= portable::pow(1.0 + 0.0028 / 228.65 * above, -13.2011);

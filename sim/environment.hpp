@@ -32,7 +32,10 @@ struct Air {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.field("density", &Air::density,
-            {.unit = "kg/m^3", .meaning = "at height 0; 0 is a vacuum", .minimum = 0.0, .maximum = 10.0});
+            {.unit = "kg/m^3",
+             .meaning = "at height 0; 0 is a vacuum",
+             .minimum = 0.0,
+             .maximum = 10.0});
     v.field("viscosity", &Air::viscosity,
             {.unit = "Pa s",
              .meaning = "dynamic viscosity, for Reynolds numbers",

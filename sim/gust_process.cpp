@@ -82,8 +82,7 @@ GustProcess::State GustProcess::start(Stream& stream) {
   return spread * draw(stream);
 }
 
-std::array<double, GustProcess::kBlock + 1> GustProcess::fill(const State& left,
-                                                              const State& right,
+std::array<double, GustProcess::kBlock + 1> GustProcess::fill(const State& left, const State& right,
                                                               Stream& stream) const {
   std::array<State, kBlock + 1> states;
   states.front() = left;

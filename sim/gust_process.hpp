@@ -38,8 +38,7 @@ class GustProcess {
   }
 
   /// Velocities at the knots of a block, its ends included, given the states there.
-  std::array<double, kBlock + 1> fill(const State& left, const State& right,
-                                      Stream& stream) const;
+  std::array<double, kBlock + 1> fill(const State& left, const State& right, Stream& stream) const;
 
  private:
   static Eigen::Vector2d draw(Stream& stream);

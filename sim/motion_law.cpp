@@ -31,9 +31,9 @@ MotionLaw drifting() {
     f(0, 2) = f(1, 3) = dt;
     return f;
   };
-  return {.start = Matrix::Zero(4, 4),
-          .transition = transition,
-          .noise = [](double) { return Matrix(Matrix::Zero(4, 4)); }};
+  return {.start = Matrix::Zero(4, 4), .transition = transition, .noise = [](double) {
+            return Matrix(Matrix::Zero(4, 4));
+          }};
 }
 
 /// exp([−A W; 0 Aᵀ] dt) = [… F⁻¹Q; 0 Fᵀ].

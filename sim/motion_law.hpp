@@ -17,7 +17,8 @@ namespace ghtrack {
 /// and says nothing where the law does not hold exactly, for then a bound would be none.
 struct MotionLaw {
   static constexpr int kMostNumbers = 8;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNumbers, kMostNumbers>;
+  using Matrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNumbers, kMostNumbers>;
 
   Matrix start;                              // covariance of s when the object appears
   std::function<Matrix(double)> transition;  // F over a time [s]
@@ -26,12 +27,12 @@ struct MotionLaw {
   bool takes_any_start = false;              // other velocities on both axes do what F says
 };
 
-/// Motion under forces that are known, without noise: F of constant velocity. It is as random as its
-/// start.
+/// Motion under forces that are known, without noise: F of constant velocity. It is as random as
+/// its start.
 MotionLaw drifting();
 
-/// A stochastic differential equation ds = A s dt + dW with E[dW dWᵀ] = W dt, solved exactly over any
-/// time (Van Loan 1978, "Computing integrals involving the matrix exponential").
+/// A stochastic differential equation ds = A s dt + dW with E[dW dWᵀ] = W dt, solved exactly over
+/// any time (Van Loan 1978, "Computing integrals involving the matrix exponential").
 /// @param a  A, square, at most 8 numbers
 /// @param w  W, symmetric, of the same size
 MotionLaw driven(const MotionLaw::Matrix& a, const MotionLaw::Matrix& w);

@@ -30,9 +30,8 @@ Models make_model(const Regime& regime, const RandomSource& source, const Vec2& 
 }  // namespace
 
 Mover::Mover(const Target& target, const Environment& environment)
-    : model_(make_model<Fold<Regime>::Models>(target.motion,
-                                              {environment.seed(), key_of(target.name)},
-                                              environment.gravity())),
+    : model_(make_model<Fold<Regime>::Models>(
+          target.motion, {environment.seed(), key_of(target.name)}, environment.gravity())),
       key_(key_of(target.name)),
       appears_(target.appears),
       disappears_(target.disappears.value_or(std::numeric_limits<double>::infinity())),

@@ -62,9 +62,7 @@ class Mover {
 
   /// The state of a round body that gives way; null: it moves on regardless, or is not there.
   FlightState* flight(State& state) const;
-  const FlightState* flight(const State& state) const {
-    return flight(const_cast<State&>(state));
-  }
+  const FlightState* flight(const State& state) const { return flight(const_cast<State&>(state)); }
 
   /// Its model and its state if it is a train; null otherwise, and where it is not there.
   const TrainModel* train() const { return std::get_if<TrainModel>(&model_); }

@@ -25,9 +25,9 @@ struct Cluster {
   std::vector<std::size_t> unyielding;  // what these may hit; can be part of several clusters
 };
 
-/// Finds who is near whom, with Box2D's tree of boxes: a body enters it with a margin and again only
-/// when it has left that, so what moves steadily costs little, however bodies are arranged. The
-/// answers depend on the boxes alone.
+/// Finds who is near whom, with Box2D's tree of boxes: a body enters it with a margin and again
+/// only when it has left that, so what moves steadily costs little, however bodies are arranged.
+/// The answers depend on the boxes alone.
 class Neighbourhood {
  public:
   Neighbourhood();

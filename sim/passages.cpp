@@ -44,8 +44,8 @@ bool intersect(const Axis& a, const Axis& b) {
 }
 
 bool are_one(const Axis& a, const Axis& b) {
-  return intersect(a, b) || std::min({distance(a.rear, b), distance(a.front, b), distance(b.rear, a),
-                                  distance(b.front, a)}) < kApart;
+  return intersect(a, b) || std::min({distance(a.rear, b), distance(a.front, b),
+                                      distance(b.rear, a), distance(b.front, a)}) < kApart;
 }
 
 /// The first cars of two trains that are in each other's place.

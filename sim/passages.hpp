@@ -13,9 +13,9 @@ namespace ghtrack {
 
 /// Two trains that pass through each other, and where.
 struct Passage {
-  std::size_t one = 0;   // index of the train
+  std::size_t one = 0;  // index of the train
   std::size_t other = 0;
-  int car = 0;           // of the one's
+  int car = 0;  // of the one's
   int other_car = 0;
   Vec2 position = Vec2::Zero();  // of the one's car [m]
 };

@@ -24,7 +24,8 @@ struct NoProcessNoise {
 struct WhiteAcceleration {
   static constexpr std::string_view kind = "constant-velocity";
   static constexpr std::string_view about =
-      "nearly constant velocity: white noise accelerates each axis; the velocity changes by sqrt(q t) "
+      "nearly constant velocity: white noise accelerates each axis; the velocity changes by sqrt(q "
+      "t) "
       "within the time t";
 
   double spectral_density = 1.0;
@@ -40,7 +41,8 @@ struct WhiteAcceleration {
   }
 };
 
-/// Singer's manoeuvres (1970): an acceleration with the autocorrelation σ² exp(−|τ|/T) on each axis.
+/// Singer's manoeuvres (1970): an acceleration with the autocorrelation σ² exp(−|τ|/T) on each
+/// axis.
 struct SingerAcceleration {
   static constexpr std::string_view kind = "singer";
   static constexpr std::string_view about =
@@ -57,12 +59,13 @@ struct SingerAcceleration {
              .required = true,
              .minimum = 0.0,
              .maximum = 1e3});
-    v.field("time", &SingerAcceleration::time,
-            {.unit = "s",
-             .meaning = "after which its correlation has fallen to 1/e: 60 for a slow turn, 20 for an "
-                        "evasive one, 1 for gusts",
-             .minimum = 0.1,
-             .maximum = 1e4});
+    v.field(
+        "time", &SingerAcceleration::time,
+        {.unit = "s",
+         .meaning = "after which its correlation has fallen to 1/e: 60 for a slow turn, 20 for an "
+                    "evasive one, 1 for gusts",
+         .minimum = 0.1,
+         .maximum = 1e4});
   }
 };
 
@@ -72,7 +75,8 @@ struct SingerAcceleration {
 struct NoisyTurn {
   static constexpr std::string_view kind = "coordinated-turn";
   static constexpr std::string_view about =
-      "a coordinated turn with a noisy rate: turn rate and speed are random walks about the route's";
+      "a coordinated turn with a noisy rate: turn rate and speed are random walks about the "
+      "route's";
 
   double turn_rate_deg = 0.1;
   double speed = 0.0;
@@ -113,10 +117,10 @@ struct Course {
 /// How one target strays from its route: two independent Gauss–Markov processes, of the deviations
 /// along x and y, or of heading [rad] and speed [m/s].
 ///
-/// At the knots, kKnotsPerSecond of them a second from the target's appearance on, the states follow
-/// from each other by the exact law of the process; in between runs the polynomial that joins them,
-/// so that position, velocity and acceleration belong together. A state depends on the seed, the
-/// target's name and the number of its knot alone.
+/// At the knots, kKnotsPerSecond of them a second from the target's appearance on, the states
+/// follow from each other by the exact law of the process; in between runs the polynomial that
+/// joins them, so that position, velocity and acceleration belong together. A state depends on the
+/// seed, the target's name and the number of its knot alone.
 class ProcessNoise {
  public:
   static constexpr double kKnotsPerSecond = 100.0;
@@ -144,8 +148,8 @@ class ProcessNoise {
   struct Law {
     int order = 0;  // size of the state: value, rate, change of the rate
     Eigen::Matrix3d transition = Eigen::Matrix3d::Zero();  // from knot to knot
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();      // covariance of the noise = spread spreadᵀ
-    double sigma_at_start = 0.0;                           // of the last of the state
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  // covariance of the noise = spread spreadᵀ
+    double sigma_at_start = 0.0;                       // of the last of the state
   };
   static Law integrated_white(int order, double density);
   static Law singer(double sigma, double time);

@@ -65,8 +65,8 @@ void name_targets(std::vector<Target>& targets);
 /// All targets one by one: copies spelled out, everyone named. Beyond kMostTargets none are added.
 std::vector<Target> spell_out(const std::vector<Target>& targets);
 
-/// The same targets, spelled out, each with a start that is a little different: random by `seed` and
-/// the target's name. A start that find_problems() rejects is drawn again, 100 times at most.
+/// The same targets, spelled out, each with a start that is a little different: random by `seed`
+/// and the target's name. A start that find_problems() rejects is drawn again, 100 times at most.
 std::vector<Target> scatter_launches(const std::vector<Target>& targets,
                                      const LaunchScatter& scatter, std::uint64_t seed,
                                      const EnvironmentConfig& environment);

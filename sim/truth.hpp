@@ -65,12 +65,12 @@ constexpr std::array<std::pair<std::string_view, TruthColumn>, 4> enum_names(Tru
 
 /// What can happen to an object.
 enum class EventKind {
-  kContact,   // it was struck, by another object or by a surface
-  kCoupling,  // it was coupled to another
-  kBurst,     // it burst
-  kOverrun,   // it ran past the place where it should have stopped
-  kOverspeed, // it ran faster than a speed limit allows
-  kPassage,   // it passed through another, as trains do whose tracks cross
+  kContact,    // it was struck, by another object or by a surface
+  kCoupling,   // it was coupled to another
+  kBurst,      // it burst
+  kOverrun,    // it ran past the place where it should have stopped
+  kOverspeed,  // it ran faster than a speed limit allows
+  kPassage,    // it passed through another, as trains do whose tracks cross
 };
 
 constexpr std::array<std::pair<std::string_view, EventKind>, 6> enum_names(EventKind) {

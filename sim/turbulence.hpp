@@ -126,9 +126,10 @@ struct TurbulenceConfig {
   template <class Visitor>
   static void describe(Visitor& v) {
     v.tagged("model", &TurbulenceConfig::model, {.meaning = "spectrum of the gusts"});
-    v.field("carried", &TurbulenceConfig::carried,
-            {.meaning = "the mean wind carries the gusts along, frozen (Taylor 1938): what drifts with "
-                        "it stays in its gust; otherwise they change where they are"});
+    v.field(
+        "carried", &TurbulenceConfig::carried,
+        {.meaning = "the mean wind carries the gusts along, frozen (Taylor 1938): what drifts with "
+                    "it stays in its gust; otherwise they change where they are"});
   }
 };
 
@@ -162,7 +163,7 @@ class CarriedGusts {
   const Values& block_at(std::size_t axis, std::int64_t node, std::int64_t index);
 
   std::vector<GustAxis> axes_;
-  Vec2 along_;   // direction of the mean wind
+  Vec2 along_;  // direction of the mean wind
   double speed_;
   std::uint64_t seed_;
   std::unordered_map<std::uint64_t, std::vector<GustProcess::State>> ends_;  // of a node's blocks

@@ -20,11 +20,11 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kMargin = 0.02;   // around swept boxes [m]
-constexpr double kInstant = 1e-9;  // two instants closer than this are one [s]
-constexpr double kSpace = 0.1;     // beside what sweeps for several steps [m]
+constexpr double kMargin = 0.02;          // around swept boxes [m]
+constexpr double kInstant = 1e-9;         // two instants closer than this are one [s]
+constexpr double kSpace = 0.1;            // beside what sweeps for several steps [m]
 constexpr double kLooksPerSecond = 15.0;  // for trains that pass through each other [Hz]
-constexpr double kRounding = 1e-9;  // of the distance between boxes [m]
+constexpr double kRounding = 1e-9;        // of the distance between boxes [m]
 constexpr std::int64_t kLongestSpell = 16;
 
 /// Half of a part's size in any direction.
@@ -57,8 +57,8 @@ bool is_failure(EventKind kind) {
   return kind == EventKind::kOverrun || kind == EventKind::kOverspeed;
 }
 
-/// By time; of what happens at one instant, that to objects by themselves comes first, by their ids,
-/// and then what they do to each other, in its order.
+/// By time; of what happens at one instant, that to objects by themselves comes first, by their
+/// ids, and then what they do to each other, in its order.
 bool happens_before(const WorldEvent& a, const WorldEvent& b) {
   const auto place = [](const WorldEvent& event) {
     const bool meets = event.other >= 0;
@@ -125,8 +125,8 @@ struct World::Scenery {
   void add_events(std::size_t target, const ImpactLog& log, std::vector<WorldEvent>& events) const;
   void add_parts(const Mover::State& state, std::size_t target, Parts& parts) const;
   void sweep(const Mover::State& state, std::size_t target, std::size_t first, Parts& parts) const;
-  Parts parts_of(const States& before, const States& after,
-                 const std::vector<std::size_t>& targets, double from) const;
+  Parts parts_of(const States& before, const States& after, const std::vector<std::size_t>& targets,
+                 double from) const;
   static std::vector<std::size_t> targets_of(const Cluster& cluster, const Parts& parts);
   Participant participant(const States& before, const Parts& parts, std::size_t box) const;
   std::int64_t settle_contacts(const States& before, States& after, Parts& parts, double from,
@@ -143,8 +143,8 @@ struct World::Scenery {
 };
 
 /// Where a target gets to if it meets no other.
-Mover::State World::Scenery::alone(const States& before, std::size_t target, double from,
-                                   double to, ImpactLog* log) const {
+Mover::State World::Scenery::alone(const States& before, std::size_t target, double from, double to,
+                                   ImpactLog* log) const {
   const Mover& mover = movers[target];
   Mover::State state = before[target];
   double begin = from;
@@ -503,9 +503,9 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
                            object(cluster.yielding[static_cast<std::size_t>(hit.one)])};
           const auto other = static_cast<std::size_t>(std::max(hit.other, 0));
           if (hit.other >= 0) {
-            event.other = object(other < yielding.size()
-                                     ? cluster.yielding[other]
-                                     : cluster.unyielding[other - yielding.size()]);
+            event.other =
+                object(other < yielding.size() ? cluster.yielding[other]
+                                               : cluster.unyielding[other - yielding.size()]);
           }
           if (hit.surface >= 0) event.surface = environment.surface_name(hit.surface);
           event.position = hit.position;
@@ -543,8 +543,7 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
 /// How far a round body at some place is inside the surroundings or one of these targets, at most,
 /// and which way leads out.
 Overlap World::Scenery::deepest_overlap(const Vec2& place, const States& at, std::size_t target,
-                                        const std::vector<std::size_t>& others,
-                                        double time) const {
+                                        const std::vector<std::size_t>& others, double time) const {
   const double radius = movers[target].round().radius;
   Overlap overlap{kTouching, Vec2::Zero()};
   const auto consider = [&](const Contact& contact) {
@@ -564,8 +563,9 @@ Overlap World::Scenery::deepest_overlap(const Vec2& place, const States& at, std
   return overlap;
 }
 
-/// Moves a round body out of all that it is in: along the deepest overlap again and again, or, where
-/// that leads from one thing into another, to the nearest free place found on rings around it.
+/// Moves a round body out of all that it is in: along the deepest overlap again and again, or,
+/// where that leads from one thing into another, to the nearest free place found on rings around
+/// it.
 /// @returns by how much
 /// @throws std::runtime_error if there is no room
 double World::Scenery::move_out(States& at, std::size_t target,
@@ -709,8 +709,7 @@ World::World(const WorldConfig& config, std::uint64_t seed)
       parts > 1 && std::any_of(scenery.movers.begin(), scenery.movers.end(),
                                [](const Mover& mover) { return mover.may_yield(); });
   scenery.lay_tracks();
-  scenery.displacements =
-      scenery.advance(scenery.states, scenery.everyone, 0.0, 0.0).displacements;
+  scenery.displacements = scenery.advance(scenery.states, scenery.everyone, 0.0, 0.0).displacements;
   const Scenery::States begun = scenery.states;
   Parts begun_parts = scenery.parts_of(begun, begun, scenery.everyone, 0.0);
   scenery.settle_contacts(begun, scenery.states, begun_parts, 0.0, 0.0);

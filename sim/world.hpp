@@ -36,15 +36,17 @@ struct RecordConfig {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.field("events", &RecordConfig::events,
-            {.meaning = "events.csv: contacts with their impulses, couplings and contacts of buffers "
-                        "with the momentum that passes until both run at one speed, bursts, stops that "
-                        "were run past, speed limits that were exceeded, trains that passed through "
-                        "each other"});
+    v.field(
+        "events", &RecordConfig::events,
+        {.meaning = "events.csv: contacts with their impulses, couplings and contacts of buffers "
+                    "with the momentum that passes until both run at one speed, bursts, stops that "
+                    "were run past, speed limits that were exceeded, trains that passed through "
+                    "each other"});
     v.field("columns", &RecordConfig::columns,
-            {.meaning = "more columns of truth.csv: heading [rad], spin [rad/s], wind_x and wind_y "
-                        "at the object [m/s], coupler_force in the coupler behind a car of a train with "
-                        "`couplers`, pulling positive [N]",
+            {.meaning =
+                 "more columns of truth.csv: heading [rad], spin [rad/s], wind_x and wind_y "
+                 "at the object [m/s], coupler_force in the coupler behind a car of a train with "
+                 "`couplers`, pulling positive [N]",
              .max_items = 4});
   }
 

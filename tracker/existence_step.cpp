@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "tracker/association.hpp"
 #include "sim/portable_math.hpp"
+#include "tracker/association.hpp"
 #include "tracker/association/belief_propagation.hpp"
 #include "tracker/life_cycle.hpp"
 #include "tracker/merging.hpp"
@@ -13,16 +13,16 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kLeastOddsWeighed = 1e-6;     // of a pair that is weighed
-constexpr double kGreatestOdds = 1e30;  // beyond which nothing is surer
+constexpr double kLeastOddsWeighed = 1e-6;  // of a pair that is weighed
+constexpr double kGreatestOdds = 1e30;      // beyond which nothing is surer
 
 /// The tracks of a scan and the detections in their gates. The cost of a pair is −ln of its odds:
 /// how much likelier the scan is with it than if the detection were nobody's and the track had
 /// none.
 struct Competition {
   CandidateTable table;
-  std::vector<double> detection;  // of each track: probability that it had to be detected
-  double log_missed = 0.0;        // ln of the probability that none is detected
+  std::vector<double> detection;     // of each track: probability that it had to be detected
+  double log_missed = 0.0;           // ln of the probability that none is detected
   std::vector<std::size_t> sharing;  // tracks that have a rival
 };
 
@@ -140,8 +140,8 @@ void undo_swaps(const CandidateTable& table, int detections, std::vector<double>
 }
 
 /// Every detection for every track, as probable as it is.
-Unused update_with_all(const Look& look, const Competition& competition,
-                       std::vector<Track>& tracks, double& log_likelihood) {
+Unused update_with_all(const Look& look, const Competition& competition, std::vector<Track>& tracks,
+                       double& log_likelihood) {
   const auto& [table, detection, log_missed, sharing] = competition;
   const auto& members = look.grid.members();
   const auto count = static_cast<int>(members.size());
@@ -218,9 +218,8 @@ void step_by_existence(Look& look, TrackerState& state) {
       evidence.log_nobodys(nobodys, look.grid.members().size()) + competition.log_missed;
   look.clock.finished(&StepTimes::predict);
 
-  const Unused unused =
-      decides ? update_with_nearest(look, competition, state)
-              : update_with_all(look, competition, tracks, state.log_likelihood);
+  const Unused unused = decides ? update_with_nearest(look, competition, state)
+                                : update_with_all(look, competition, tracks, state.log_likelihood);
   keep_if(tracks, [&](std::size_t i) {
     judge(config, tracks[i], state.next_id);
     return *tracks[i].existence >= config.existence.drop && tracks[i].unseen < config.drop_unseen &&

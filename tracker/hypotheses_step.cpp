@@ -9,18 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "tracker/association/k_best.hpp"
 #include "sim/portable_math.hpp"
+#include "tracker/association/k_best.hpp"
 #include "tracker/life_cycle.hpp"
 
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kMostHypotheses = 100;  // in a cluster
-constexpr double kWithin = 11.5;              // ln of how much likelier the likeliest one may be
-constexpr double kLeastOddsConsidered = 1e-4;           // of a pair that is considered
-constexpr double kMostWork = 4000.0;          // hypotheses times targets
-constexpr std::size_t kMostJoint = 24;        // targets that are explained together
+constexpr std::size_t kMostHypotheses = 100;   // in a cluster
+constexpr double kWithin = 11.5;               // ln of how much likelier the likeliest one may be
+constexpr double kLeastOddsConsidered = 1e-4;  // of a pair that is considered
+constexpr double kMostWork = 4000.0;           // hypotheses times targets
+constexpr std::size_t kMostJoint = 24;         // targets that are explained together
 
 /// A branch in a scan: its detections, and what it costs to have none.
 struct Prospect {
@@ -142,7 +142,8 @@ class MultiScan {
     look_.grid.find_in_gate(reach(track), look_.config().gate, gated);
     for (const Gated& near : gated) {
       const double cost = base + surprise(track, near, members_[near.member]);
-      if (cost < -portable::log(kLeastOddsConsidered)) result.candidates.push_back({near.member, cost});
+      if (cost < -portable::log(kLeastOddsConsidered))
+        result.candidates.push_back({near.member, cost});
     }
     return result;
   }
@@ -221,7 +222,8 @@ class MultiScan {
         std::optional<Track> track = marginal(cluster, t);
         if (!track) continue;
         tracks.push_back(std::move(*track));
-        trees.push_back({.birth = cluster.targets[t].birth, .id = cluster.targets[t].id, .branches = {}});
+        trees.push_back(
+            {.birth = cluster.targets[t].birth, .id = cluster.targets[t].id, .branches = {}});
       }
       for (const int detection : detections_of(scenes_[i])) is_claimed[detection] = true;
     }
@@ -505,7 +507,8 @@ class MultiScan {
       } else {
         double& weight = part.hypotheses[at->second].log_weight;
         const double more = std::max(weight, own.log_weight);
-        weight = more + portable::log(portable::exp(weight - more) + portable::exp(own.log_weight - more));
+        weight = more +
+                 portable::log(portable::exp(weight - more) + portable::exp(own.log_weight - more));
       }
     }
     normalise(part.hypotheses);

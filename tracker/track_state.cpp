@@ -86,8 +86,7 @@ double surprise(const Track& track, const Gated& gated, const PlacedDetection& d
 
 void hit(Track& track, const PlacedDetection& found, const Scan& scan) {
   const Detection& detection = scan.detections[static_cast<std::size_t>(found.detection)];
-  const bool is_used =
-      update(track.filter, found.position, found.covariance, detection.measured);
+  const bool is_used = update(track.filter, found.position, found.covariance, detection.measured);
   note_detection(track, found, scan.time);
   if (!is_used) track.residual.reset();
 }

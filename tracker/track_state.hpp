@@ -66,8 +66,8 @@ void pull(Track& track, std::span<const Weighted> probable);
 void note_detection(Track& track, const PlacedDetection& found, double time);
 
 /// Should this scan have shown the track's target? Where the sensor sees, and with partial scans
-/// when it is time for the next look at the place. Below the floor nothing hides: whoever is expected
-/// there, and farther below than the gate reaches, would be somewhere else and seen.
+/// when it is time for the next look at the place. Below the floor nothing hides: whoever is
+/// expected there, and farther below than the gate reaches, would be somewhere else and seen.
 bool is_due(const Track& track, const TrackerConfig& config, const SensorTraits& sensor,
             double time);
 

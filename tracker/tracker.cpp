@@ -67,8 +67,7 @@ TrackSnapshot snapshot(const TrackerState& state) {
     const Kinematics<2>& now = estimate(track.filter);
     result.tracks.push_back(
         {.id = track.id,
-         .tentative_id =
-             state.weighs_existence ? std::optional(-track.birth) : std::nullopt,
+         .tentative_id = state.weighs_existence ? std::optional(-track.birth) : std::nullopt,
          .status = track.status,
          .existence = track.existence,
          .filter = std::string(name(track.filter)),

@@ -25,7 +25,7 @@ struct TrackerState {
   int next_birth = 1;                   // of tracks that are not confirmed yet
   std::vector<Track> tracks;            // in the order of birth; of the likeliest hypothesis
   Undetected undetected;                // life_cycle: existence
-  std::vector<TrackCluster> clusters;        // association: multi-scan
+  std::vector<TrackCluster> clusters;   // association: multi-scan
   std::int64_t scans_refused = 0;       // older than the latest scan, or without a finite time
   std::int64_t detections_refused = 0;  // without a finite position and covariance
 

@@ -177,7 +177,7 @@ struct TrackerConfig {
   std::optional<HitRule> confirm;
   std::optional<MissRule> drop_tentative;
   std::optional<MissRule> drop_confirmed;
-  int drop_unseen = 10;  // scans without a detection, in view or not
+  int drop_unseen = 10;         // scans without a detection, in view or not
   std::optional<double> floor;  // y below which nothing can be [m]
   LateScans late_scans = LateScans::kRefuse;
   double late_window = 2.0;  // how late a scan may be and still be replayed [s]
@@ -212,13 +212,14 @@ struct TrackerConfig {
             {.meaning = "a track without a detection in this many scans ends, in view or not",
              .minimum = 1,
              .maximum = 1e6});
-    v.field("floor", &TrackerConfig::floor,
-            {.unit = "m",
-             .meaning = "y below which nothing can be: a track that goes there, and is farther below "
-                        "than its error explains, counts as missed by every scan, in view or not; "
-                        "by default the lowest point of the scene's ground",
-             .minimum = -1e5,
-             .maximum = 1e5});
+    v.field(
+        "floor", &TrackerConfig::floor,
+        {.unit = "m",
+         .meaning = "y below which nothing can be: a track that goes there, and is farther below "
+                    "than its error explains, counts as missed by every scan, in view or not; "
+                    "by default the lowest point of the scene's ground",
+         .minimum = -1e5,
+         .maximum = 1e5});
     v.field("late_scans", &TrackerConfig::late_scans,
             {.meaning = "what becomes of a scan that arrives after a later one"});
     v.field("late_window", &TrackerConfig::late_window,

@@ -9,8 +9,8 @@
 namespace ghtrack {
 namespace {
 
-/// The filter of detections that nobody has classified. Where nothing is said of any target, one that
-/// suits steady and nimble ones.
+/// The filter of detections that nobody has classified. Where nothing is said of any target, one
+/// that suits steady and nimble ones.
 FilterConfig default_filter(const std::map<std::string, FilterConfig>& filters) {
   if (filters.empty()) return ImmConfig{};
   if (filters.size() == 1) return filters.begin()->second;
@@ -48,9 +48,9 @@ TrackerDesign::TrackerDesign(TrackerConfig config, std::vector<SensorTraits> sen
   best_ = static_cast<int>(best - sensors_.begin());
   for (const SensorTraits& sensor : sensors_) {
     const std::size_t index = evidence_.size();
-    evidence_.emplace_back(config_.existence, sensor,
-                           index < areas.size() ? areas[index]
-                                                : std::numeric_limits<double>::infinity());
+    evidence_.emplace_back(
+        config_.existence, sensor,
+        index < areas.size() ? areas[index] : std::numeric_limits<double>::infinity());
     FiltersByLabel& filters = filters_.emplace_back();
     for (const auto& [label, filter] : by_label) {
       filters.emplace(label, make_filter(filter, best->sigma, best->period));

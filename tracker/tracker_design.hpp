@@ -56,7 +56,8 @@ class TrackerDesign {
   std::vector<FiltersByLabel> filters_;  // of each sensor
 };
 
-/// The filters that a track of this class may be followed with: one, or several side by side or mixed.
+/// The filters that a track of this class may be followed with: one, or several side by side or
+/// mixed.
 std::vector<SingleFilterConfig> filters_of(const TrackerConfig& config, const std::string& label);
 
 }  // namespace ghtrack

@@ -58,10 +58,11 @@ struct CompareConfig {
              .max_items = 100});
     v.field("filters", &CompareConfig::filters,
             {.meaning = "filters by a name of your choice, used for every target"});
-    v.field("tuned", &CompareConfig::tuned,
-            {.meaning = "kinds of filters that `ghtrack compare` tunes, for each combination of the "
-                        "sweep on its own, on up to 50 runs that it then does not compare: g-h, "
-                        "g-h-k, the better of both Kalman filters, interacting Kalman filters"});
+    v.field(
+        "tuned", &CompareConfig::tuned,
+        {.meaning = "kinds of filters that `ghtrack compare` tunes, for each combination of the "
+                    "sweep on its own, on up to 50 runs that it then does not compare: g-h, "
+                    "g-h-k, the better of both Kalman filters, interacting Kalman filters"});
     v.field("order", &CompareConfig::order,
             {.meaning = "names of the filters in the order in which tables and videos show them; "
                         "those that are left out follow by name",

@@ -166,8 +166,7 @@ std::string document_name(const std::filesystem::path& file) {
 std::string read_document_bytes(const std::filesystem::path& file) {
   if (const auto stream = own_stream(file.string())) return bytes_of_stream(file, *stream);
   // Without O_NONBLOCK a pipe without a writer would be waited for.
-  const Descriptor descriptor(
-      ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   struct stat status {};
   if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0) fail_with_errno(file);
   if (S_ISDIR(status.st_mode)) fail(file, "is a folder, not a file");

@@ -39,7 +39,8 @@ std::errc real_number(std::string_view text, double& value) {
   return result.ptr == end ? result.ec : std::errc::invalid_argument;
 }
 #else
-/// The same where the standard library has no std::from_chars() for it yet, as that for WebAssembly.
+/// The same where the standard library has no std::from_chars() for it yet, as that for
+/// WebAssembly.
 std::errc real_number(std::string_view text, double& value) {
   if (text.find_first_not_of("+-.0123456789eE") != text.npos || text.starts_with('+')) {
     return std::errc::invalid_argument;

@@ -21,8 +21,8 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
 Scene read_scene_text(std::string_view text, const std::string& name,
                       std::span<const std::string> overrides = {});
 
-/// Where a key stands, such as "scenes/demo.yaml:4:5" for "targets[0].ball", or what is there of it;
-/// the name alone of standard input and of what a file does not say.
+/// Where a key stands, such as "scenes/demo.yaml:4:5" for "targets[0].ball", or what is there of
+/// it; the name alone of standard input and of what a file does not say.
 std::string place_of(const std::filesystem::path& file, std::string_view key);
 
 }  // namespace ghtrack

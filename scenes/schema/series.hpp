@@ -100,13 +100,15 @@ struct GivenSeries {
     v.field("measurements", &GivenSeries::measurements, {.meaning = "the measurements in order"});
     v.field("truth", &GivenSeries::truth,
             {.meaning = "the true values, as many; without them no errors are computed"});
-    v.field("times", &GivenSeries::times,
-            {.unit = "s",
-             .meaning = "the times of the measurements, as many, in order; without them they are dt "
-                        "apart"});
-    v.field("file", &GivenSeries::file,
-            {.meaning = "a table that has them instead, read as `ghtrack filter` reads it; its place "
-                        "is counted from the scene's folder"});
+    v.field(
+        "times", &GivenSeries::times,
+        {.unit = "s",
+         .meaning = "the times of the measurements, as many, in order; without them they are dt "
+                    "apart"});
+    v.field(
+        "file", &GivenSeries::file,
+        {.meaning = "a table that has them instead, read as `ghtrack filter` reads it; its place "
+                    "is counted from the scene's folder"});
     v.field("columns", &GivenSeries::columns,
             {.meaning = "which of its columns are meant, such as t=Time,z=Height; by default as "
                         "their names tell"});
@@ -145,7 +147,8 @@ struct GivenSeries {
 struct WalkSeries {
   static constexpr std::string_view kind = "walk";
   static constexpr std::string_view about =
-      "readings of somebody who walks along a ring of places, such as a dog in a hallway with doors";
+      "readings of somebody who walks along a ring of places, such as a dog in a hallway with "
+      "doors";
 
   int points = 20;
   std::vector<double> map;  // what there is in each place
@@ -163,10 +166,13 @@ struct WalkSeries {
              .required = true,
              .min_items = 2,
              .max_items = 10'000});
-    v.field("start", &WalkSeries::start,
-            {.unit = "1", .meaning = "place before the first step", .minimum = 0, .maximum = 9'999});
+    v.field(
+        "start", &WalkSeries::start,
+        {.unit = "1", .meaning = "place before the first step", .minimum = 0, .maximum = 9'999});
     v.field("movement", &WalkSeries::movement,
-            {.unit = "1", .meaning = "places meant to move in a step", .minimum = -1000,
+            {.unit = "1",
+             .meaning = "places meant to move in a step",
+             .minimum = -1000,
              .maximum = 1000});
     v.field("kernel", &WalkSeries::kernel,
             {.unit = "1",
@@ -228,9 +234,10 @@ struct SeriesFilter {
              .meaning = "the filter's idea of the time step; without it the data's",
              .minimum = 1e-9,
              .maximum = 1e9});
-    v.field("sigma", &SeriesFilter::sigma,
-            {.meaning = "the filter's idea of the 1-sigma error of a measurement, for Kalman filters",
-             .above = 0.0});
+    v.field(
+        "sigma", &SeriesFilter::sigma,
+        {.meaning = "the filter's idea of the 1-sigma error of a measurement, for Kalman filters",
+         .above = 0.0});
     v.tagged("filter", &SeriesFilter::model, {.meaning = "its kind, as in `ghtrack filter`"});
   }
 

@@ -80,7 +80,7 @@ struct VideoConfig {
   std::vector<VideoLayer> show{kDefaultVideoLayers.begin(), kDefaultVideoLayers.end()};
   std::optional<double> trail;  // how far back paths, marks and trails reach [s]
   VideoTheme theme = VideoTheme::kDark;
-  double text = 1.0;  // how much larger letters are than usual
+  double text = 1.0;         // how much larger letters are than usual
   std::vector<Vec2> region;  // lower left and upper right corner; empty: all that happens [m]
   std::optional<std::string> follow;  // the target that stays in the middle of the picture
   double follow_width = 40.0;         // of the world across the picture when following [m]

@@ -35,17 +35,28 @@ enum class VideoLayer : std::uint32_t {
 
 /// The layers as scenes and options name them.
 constexpr std::array<std::pair<std::string_view, VideoLayer>, 22> enum_names(VideoLayer) {
-  return {{{"grid", VideoLayer::kGrid},           {"field-of-view", VideoLayer::kFieldOfView},
-           {"ground", VideoLayer::kGround},       {"walls", VideoLayer::kWalls},
-           {"rails", VideoLayer::kRails},         {"wind", VideoLayer::kWind},
-           {"truth", VideoLayer::kTruth},         {"names", VideoLayer::kNames},
-           {"trails", VideoLayer::kTrails},       {"smoothed", VideoLayer::kSmoothed},
-           {"gates", VideoLayer::kGates},         {"residuals", VideoLayer::kResiduals},
-           {"detections", VideoLayer::kDetections}, {"clutter", VideoLayer::kClutter},
-           {"tentative", VideoLayer::kTentative}, {"tracks", VideoLayer::kTracks},
-           {"events", VideoLayer::kEvents},       {"fans", VideoLayer::kFans},
-           {"labels", VideoLayer::kLabels},       {"insets", VideoLayer::kInsets},
-           {"hud", VideoLayer::kHud},             {"legend", VideoLayer::kLegend}}};
+  return {{{"grid", VideoLayer::kGrid},
+           {"field-of-view", VideoLayer::kFieldOfView},
+           {"ground", VideoLayer::kGround},
+           {"walls", VideoLayer::kWalls},
+           {"rails", VideoLayer::kRails},
+           {"wind", VideoLayer::kWind},
+           {"truth", VideoLayer::kTruth},
+           {"names", VideoLayer::kNames},
+           {"trails", VideoLayer::kTrails},
+           {"smoothed", VideoLayer::kSmoothed},
+           {"gates", VideoLayer::kGates},
+           {"residuals", VideoLayer::kResiduals},
+           {"detections", VideoLayer::kDetections},
+           {"clutter", VideoLayer::kClutter},
+           {"tentative", VideoLayer::kTentative},
+           {"tracks", VideoLayer::kTracks},
+           {"events", VideoLayer::kEvents},
+           {"fans", VideoLayer::kFans},
+           {"labels", VideoLayer::kLabels},
+           {"insets", VideoLayer::kInsets},
+           {"hud", VideoLayer::kHud},
+           {"legend", VideoLayer::kLegend}}};
 }
 
 /// What a video shows unless told otherwise: all but the names of the true objects, the paths as

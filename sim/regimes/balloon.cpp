@@ -24,9 +24,8 @@ struct Coefficients {
 };
 
 Coefficients coefficients_of(const auto& form, const Balloon& balloon, double mass) {
-  const double carried = balloon.fluid_acceleration
-                             ? (1.0 + balloon.added_mass) * form.displaced / form.inertia
-                             : 0.0;
+  const double carried =
+      balloon.fluid_acceleration ? (1.0 + balloon.added_mass) * form.displaced / form.inertia : 0.0;
   return {form.drag_per_speed, (mass - form.displaced) / form.inertia, carried};
 }
 

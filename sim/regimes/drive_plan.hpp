@@ -86,8 +86,10 @@ struct Brake {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.scalar(&Brake::brake, {.meaning = "to a stand, and hold there; locomotive: with the first car's service brake "
-                                    "alone"});
+    v.scalar(
+        &Brake::brake,
+        {.meaning = "to a stand, and hold there; locomotive: with the first car's service brake "
+                    "alone"});
   }
 };
 

@@ -55,8 +55,7 @@ void Drone::shift(const Vec2& by) {
 }
 
 DroneModel::DroneModel(const Drone& drone)
-    : drone_(drone),
-      max_tilt_(drone.max_tilt_deg * portable::kPi / 180.0) {
+    : drone_(drone), max_tilt_(drone.max_tilt_deg * portable::kPi / 180.0) {
   const portable::SinCos tilt = portable::sin_cos(max_tilt_);
   tan_max_tilt_ = tilt.sin / tilt.cos;
 }
@@ -118,8 +117,7 @@ FlightRate DroneModel::rate(const FlightState& state, const Environment& environ
 double DroneModel::stiffness(const FlightState& state, const Environment& environment,
                              const SmoothInstant& now) const {
   const Vec2 air = state.velocity - environment.wind().at(state.position, now.time);
-  const double drag =
-      environment.air_density(state.position.y()) * drone_.drag_area / drone_.mass;
+  const double drag = environment.air_density(state.position.y()) * drone_.drag_area / drone_.mass;
   return drag * air.norm() + 1.0 / kVelocityTime +
          drone_.attitude_rate * (1.0 + drone_.attitude_damping);
 }

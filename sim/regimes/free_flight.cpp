@@ -197,9 +197,9 @@ void keep_energy(const FlightState& before, FlightState& after, const FlightRate
     return 0.5 * (state.velocity.squaredNorm() + inertia * state.spin * state.spin);
   };
   const double work =
-      0.5 * ((free_before.acceleration + free_after.acceleration)
-                 .dot(after.position - before.position) +
-             inertia * (free_before.spin + free_after.spin) * (after.angle - before.angle));
+      0.5 *
+      ((free_before.acceleration + free_after.acceleration).dot(after.position - before.position) +
+       inertia * (free_before.spin + free_after.spin) * (after.angle - before.angle));
   const double most = std::max(0.0, energy(before) + work);
   const double now = energy(after);
   if (now <= most) return;
@@ -258,8 +258,8 @@ namespace {
 /// Another surface that is hit at the same instant and equally fast, as where a ball falls into the
 /// middle of a valley.
 std::optional<std::size_t> struck_as_well(const FlightState& state, const RoundBody& body,
-                                          const std::vector<Surface>& surfaces,
-                                          std::size_t surface, double approach) {
+                                          const std::vector<Surface>& surfaces, std::size_t surface,
+                                          double approach) {
   constexpr double kSameSpeed = 1e-9;
   const Vec2 normal = surfaces[surface].contact(state.position).normal;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -394,7 +394,7 @@ Approach first_approach(const FlightState& before, const FlightState& after, dou
   // Samples of the path closer than a quarter radius: no wall is thin enough to slip through.
   const int wall_samples =
       static_cast<int>(std::clamp(std::ceil(4.0 * reach / body.radius), 4.0, 20000.0));
-  constexpr int kGroundSamples = 4;  // nobody gets to the other side of the ground
+  constexpr int kGroundSamples = 4;    // nobody gets to the other side of the ground
   constexpr double kRounding = 1e-12;  // slower [m/s] and less deep [m] it has just been hit
   const auto position_at = [&](double f) {
     const double g = 1.0 - f;

@@ -33,13 +33,13 @@ struct ContactProperties {
 
 /// What struck a surface of the surroundings, or what else has happened to an object by itself.
 struct Impact {
-  double time = 0.0;              // [s]
-  int surface = 0;                // index of the environment's surface; −1: none
-  Vec2 position = Vec2::Zero();   // of the body's centre [m]
-  Vec2 impulse = Vec2::Zero();    // that the body received [N s]
+  double time = 0.0;             // [s]
+  int surface = 0;               // index of the environment's surface; −1: none
+  Vec2 position = Vec2::Zero();  // of the body's centre [m]
+  Vec2 impulse = Vec2::Zero();   // that the body received [N s]
   EventKind kind = EventKind::kContact;
-  int object = 0;                 // of the target's, where it has several
-  int other = -1;                 // another one of the target's, if it has to do with that
+  int object = 0;  // of the target's, where it has several
+  int other = -1;  // another one of the target's, if it has to do with that
 };
 using ImpactLog = std::vector<Impact>;
 
@@ -55,8 +55,8 @@ using ImpactLog = std::vector<Impact>;
 /// Its parts move on regardless of what they hit, unless it is one of IsRoundModel too.
 template <class M>
 concept IsMotionModel = std::copyable<typename M::State> &&
-    requires(const M& model, typename M::State& state, const Environment& environment,
-             double time, int index, ImpactLog* log) {
+    requires(const M& model, typename M::State& state, const Environment& environment, double time,
+             int index, ImpactLog* log) {
   { model.start(environment, time) } -> std::same_as<typename M::State>;
   { model.advance(state, environment, time, time, log) } -> std::same_as<void>;
   { model.objects() } -> std::same_as<int>;

@@ -12,9 +12,7 @@ namespace {
 // same to 1e-9 for hours.
 constexpr double kMostPhase = 0.006;
 
-Vec2 from_pivot(double angle) {
-  return -left_of(direction(angle));
-}
+Vec2 from_pivot(double angle) { return -left_of(direction(angle)); }
 
 }  // namespace
 

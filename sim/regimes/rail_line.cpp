@@ -137,8 +137,7 @@ std::optional<PlaceOnLine> place_on(const RailLine& line, const RailLine& other)
     bool is_same = true;
     for (int i = -1; i <= kParts + 1 && is_same; ++i) {
       const double s = bends->first + length * i / kParts;
-      const Vec2 apart =
-          line.at(s).position - other.at(place.begin + place.direction * s).position;
+      const Vec2 apart = line.at(s).position - other.at(place.begin + place.direction * s).position;
       is_same = apart.norm() <= kSame;
     }
     if (is_same) return place;

@@ -141,7 +141,8 @@ class RailLine {
   double length_ = 0.0;
 };
 
-/// How a line lies on another that is the same curve: its arc length s is begin + direction × s there.
+/// How a line lies on another that is the same curve: its arc length s is begin + direction × s
+/// there.
 struct PlaceOnLine {
   double begin = 0.0;      // [m]
   double direction = 1.0;  // −1: they run against each other

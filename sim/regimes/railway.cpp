@@ -226,8 +226,8 @@ void TrackMotion::press(States& states) const {
     const Face ahead = low(states, pair.ahead);
     const double stretch = ahead.place - behind.place;
     const double parting = ahead.speed - behind.speed;
-    const double pull = pair.coupled ? pair.buffers.pull(stretch, parting)
-                                     : pair.buffers.press(stretch, parting);
+    const double pull =
+        pair.coupled ? pair.buffers.pull(stretch, parting) : pair.buffers.press(stretch, parting);
     const auto push = [&](std::size_t train, std::size_t unit, double force) {
       std::vector<double>& pushes = states[train].pushes;
       pushes.resize(states[train].place.size());
@@ -311,8 +311,7 @@ States TrackMotion::moved(double time, double step) const {
                               (s1[train].speed[i] + 2.0 * s2[train].speed[i] +
                                2.0 * s3[train].speed[i] + s4[train].speed[i]);
       next[train].speed[i] +=
-          step / 6.0 *
-          (k1[train][i] + 2.0 * k2[train][i] + 2.0 * k3[train][i] + k4[train][i]);
+          step / 6.0 * (k1[train][i] + 2.0 * k2[train][i] + 2.0 * k3[train][i] + k4[train][i]);
     }
   }
   press(next);

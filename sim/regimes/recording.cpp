@@ -80,12 +80,11 @@ PlanarMotion RecordingModel::at(double elapsed) const {
     const double f = (time - times_[i]) / h;
     const Vec2& left = bends_[i];
     const Vec2& right = bends_[i + 1];
-    return PlanarMotion{
-        g * places_[i] + f * places_[i + 1] +
-            h * h / 6.0 * ((g * g * g - g) * left + (f * f * f - f) * right),
-        (places_[i + 1] - places_[i]) / h +
-            h / 6.0 * ((1.0 - 3.0 * g * g) * left + (3.0 * f * f - 1.0) * right),
-        g * left + f * right};
+    return PlanarMotion{g * places_[i] + f * places_[i + 1] +
+                            h * h / 6.0 * ((g * g * g - g) * left + (f * f * f - f) * right),
+                        (places_[i + 1] - places_[i]) / h +
+                            h / 6.0 * ((1.0 - 3.0 * g * g) * left + (3.0 * f * f - 1.0) * right),
+                        g * left + f * right};
   };
   const auto next = std::upper_bound(times_.begin() + 1, times_.end() - 1, elapsed);
   PlanarMotion motion =
@@ -106,8 +105,8 @@ PlanarMotion RecordingModel::kinematics(const State& state, const Environment&, 
 RigidBody RecordingModel::body(const State& state, int) const {
   const PlanarMotion motion = at(state.time - state.began);
   const double square = motion.velocity.squaredNorm();
-  const double turning = motion.velocity.x() * motion.acceleration.y() -
-                         motion.velocity.y() * motion.acceleration.x();
+  const double turning =
+      motion.velocity.x() * motion.acceleration.y() - motion.velocity.y() * motion.acceleration.x();
   return {motion.position, motion.velocity,
           portable::atan2(motion.velocity.y(), motion.velocity.x()),
           square > 0.0 ? turning / square : 0.0};

@@ -29,9 +29,9 @@ struct RecordedPlace {
 class RecordingModel;
 
 /// Motion that somebody has recorded, or computed elsewhere: the cubic spline through the places.
-/// With the step h between rows and a motion x(t) whose fourth derivative is at most X, the error is
-/// at most 5/384 X h⁴ in position, X h³/24 in velocity and 3/8 X h² in acceleration (Hall & Meyer
-/// 1976). Noise in the rows is part of the motion then: smooth it before.
+/// With the step h between rows and a motion x(t) whose fourth derivative is at most X, the error
+/// is at most 5/384 X h⁴ in position, X h³/24 in velocity and 3/8 X h² in acceleration (Hall &
+/// Meyer 1976). Noise in the rows is part of the motion then: smooth it before.
 struct Recording {
   static constexpr std::string_view kind = "recording";
   static constexpr std::string_view about =
@@ -52,11 +52,13 @@ struct Recording {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.field("file", &Recording::file,
-            {.meaning = "a table with the columns t, x and y; its place is counted from the scene's "
-                        "folder. The first row is where it appears, whatever its time"});
-    v.field("id", &Recording::id,
-            {.meaning = "the rows that have this in the column truth_id, id or name; left out: all"});
+    v.field(
+        "file", &Recording::file,
+        {.meaning = "a table with the columns t, x and y; its place is counted from the scene's "
+                    "folder. The first row is where it appears, whatever its time"});
+    v.field(
+        "id", &Recording::id,
+        {.meaning = "the rows that have this in the column truth_id, id or name; left out: all"});
     v.field("places", &Recording::places,
             {.meaning = "the rows themselves, instead of `file`; beyond the last it keeps its "
                         "velocity",
@@ -116,7 +118,7 @@ class RecordingModel {
   Vec2 velocity_;              // added
   std::vector<double> times_;  // since the first
   std::vector<Vec2> places_;
-  std::vector<Vec2> bends_;    // second derivatives there [m/s²]
+  std::vector<Vec2> bends_;  // second derivatives there [m/s²]
 };
 
 }  // namespace ghtrack

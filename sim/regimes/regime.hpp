@@ -32,8 +32,8 @@ static_assert(all_are_regimes<Regime>,
 /// The name of the regime: "train", "ball", "balloon", …
 std::string_view kind_of(const Regime& regime);
 
-/// The law by which it moves, if it is known and as simple as MotionLaw says; random as the noise of
-/// its own, and from a start that is known exactly.
+/// The law by which it moves, if it is known and as simple as MotionLaw says; random as the noise
+/// of its own, and from a start that is known exactly.
 std::optional<MotionLaw> law_of(const Regime& regime, const EnvironmentConfig& environment);
 
 /// The names of all regimes, in the order of the list.

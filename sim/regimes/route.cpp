@@ -152,8 +152,8 @@ class Planner {
       const double radius = legs_[leg - 1].turn_radius.value_or(route_.turn_radius);
       const double speed = std::max(entering_[leg], 1e-9);
       const Vec2 corner = place_;
-      append({end_, corner - taken * direction(heading_), heading_, std::copysign(1.0 / radius, change),
-              speed, 0.0},
+      append({end_, corner - taken * direction(heading_), heading_,
+              std::copysign(1.0 / radius, change), speed, 0.0},
              radius * std::abs(change) / speed);
       place_ = corner + taken * direction(heading);
     }
@@ -182,11 +182,11 @@ class Planner {
 
   double length_of(std::size_t leg, double duration) {
     const double speed = speeds_[leg];
-    const double changing = (std::abs(speed - entering_[leg]) + std::abs(leaving_[leg] - speed)) /
-                            route_.acceleration;
+    const double changing =
+        (std::abs(speed - entering_[leg]) + std::abs(leaving_[leg] - speed)) / route_.acceleration;
     if (changing > duration * (1.0 + 1e-12)) {
-      report(leg, "hold", "is too short to change the speed in: " + rounded(changing) +
-                              " s are needed");
+      report(leg, "hold",
+             "is too short to change the speed in: " + rounded(changing) + " s are needed");
     }
     return change_of(entering_[leg], speed) + change_of(speed, leaving_[leg]) +
            speed * std::max(0.0, duration - changing);
@@ -357,8 +357,7 @@ Vec2 RouteModel::way(const Stretch& stretch, const ProcessNoise::State& noise, d
                                            0.2369268850561891};
   Vec2 sum = Vec2::Zero();
   for (std::size_t i = 0; i < kNodes.size(); ++i) {
-    const Travel there =
-        travel(stretch, noise, from + 0.5 * (to - from) * (1.0 + kNodes[i]));
+    const Travel there = travel(stretch, noise, from + 0.5 * (to - from) * (1.0 + kNodes[i]));
     sum += kWeights[i] * there.speed * direction(there.heading);
   }
   return 0.5 * (to - from) * sum;

@@ -21,10 +21,8 @@ struct GoTo {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.scalar(&GoTo::place, {.unit = "m",
-                            .meaning = "straight to this place",
-                            .minimum = -1e6,
-                            .maximum = 1e6});
+    v.scalar(&GoTo::place,
+             {.unit = "m", .meaning = "straight to this place", .minimum = -1e6, .maximum = 1e6});
   }
 };
 
@@ -35,10 +33,11 @@ struct HoldCourse {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.scalar(&HoldCourse::duration, {.unit = "s",
-                                     .meaning = "straight on for so long, changes of speed included",
-                                     .above = 0.0,
-                                     .maximum = 1e6});
+    v.scalar(&HoldCourse::duration,
+             {.unit = "s",
+              .meaning = "straight on for so long, changes of speed included",
+              .above = 0.0,
+              .maximum = 1e6});
   }
 };
 

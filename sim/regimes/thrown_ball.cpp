@@ -49,13 +49,13 @@ std::span<const ThrownBall> ThrownBall::presets() {
   // drag crisis), sphere at Re 1e5 (table tennis). Restitution: so that in air
   // each ball rises as its rules ask, ITF (tennis: 254 cm, then 135 to 147), FIBA (basketball: 180
   // cm, then 96 to 116), ITTF (table tennis: 30 cm, then 23); usual values otherwise.
-  // Golf: R&A rules (at most 45.93 g, at least 42.67 mm); drag Bearman & Harvey 1976, restitution on
-  // a hard floor Cross 2002. Cricket: MCC laws (155.9 to 163 g, 224 to 229 mm around); drag Mehta
-  // 2005. Volleyball: FIVB rules (260 to 280 g, 650 to 670 mm around); drag beyond the crisis Asai et
-  // al. 2010. Billiard: WPA rules (57.15 mm, 156 to 170 g); restitution between balls 0.92 to 0.98 and
-  // friction 0.06, Alciatore. Handball: IHF rules, size 3 (425 to 475 g, 580 to 600 mm around).
-  // Shuttlecock: BWF laws (4.74 to 5.50 g, skirt of 58 to 68 mm); drag 0.53 of the skirt's area, so
-  // that it falls at 6.8 m/s, Cooke 1999 and Cohen et al. 2015; it does not turn.
+  // Golf: R&A rules (at most 45.93 g, at least 42.67 mm); drag Bearman & Harvey 1976, restitution
+  // on a hard floor Cross 2002. Cricket: MCC laws (155.9 to 163 g, 224 to 229 mm around); drag
+  // Mehta 2005. Volleyball: FIVB rules (260 to 280 g, 650 to 670 mm around); drag beyond the crisis
+  // Asai et al. 2010. Billiard: WPA rules (57.15 mm, 156 to 170 g); restitution between balls 0.92
+  // to 0.98 and friction 0.06, Alciatore. Handball: IHF rules, size 3 (425 to 475 g, 580 to 600 mm
+  // around). Shuttlecock: BWF laws (4.74 to 5.50 g, skirt of 58 to 68 mm); drag 0.53 of the skirt's
+  // area, so that it falls at 6.8 m/s, Cooke 1999 and Cohen et al. 2015; it does not turn.
   static const std::vector<ThrownBall> rows = [] {
     std::vector<ThrownBall> balls{
         make_preset("baseball", 0.145, 0.0366, 0.35, LiftModel::kNathan2016, 0.4, 0.55, 0.4),

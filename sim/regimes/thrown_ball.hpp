@@ -157,9 +157,10 @@ struct ThrownBall {
              .above = 0.0,
              .maximum = 1.0});
     describe_bounce<ThrownBall>(v);
-    v.field("buoyancy", &ThrownBall::buoyancy,
-            {.meaning = "the air lifts it by what it displaces, and half as much air moves along: for "
-                        "light balls, such as beach balls"});
+    v.field(
+        "buoyancy", &ThrownBall::buoyancy,
+        {.meaning = "the air lifts it by what it displaces, and half as much air moves along: for "
+                    "light balls, such as beach balls"});
     v.field("juggle", &ThrownBall::juggle,
             {.meaning = "the hands of a juggler, instead of a velocity; left out: thrown once"});
   }

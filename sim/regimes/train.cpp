@@ -66,9 +66,9 @@ TrainModel::TrainModel(const Train& train, const Vec2& gravity)
   longest_step_ = std::min(0.35 / std::sqrt(4.0 * train.couplers->stiffness / lightest),
                            0.35 / (4.0 * train.couplers->damping / lightest + 1e-9));
   if (!train.buffer_stop) return;
-  longest_step_ = std::min({longest_step_,
-                            0.35 / std::sqrt(2.0 * train.buffer_stop->stiffness / lightest),
-                            0.35 / (2.0 * train.buffer_stop->damping / lightest + 1e-9)});
+  longest_step_ =
+      std::min({longest_step_, 0.35 / std::sqrt(2.0 * train.buffer_stop->stiffness / lightest),
+                0.35 / (2.0 * train.buffer_stop->damping / lightest + 1e-9)});
 }
 
 TrainModel::State TrainModel::start(const Environment&, double) const {
@@ -104,8 +104,7 @@ const DriveCommand* TrainModel::command_of(const State& state, std::size_t group
 
 bool TrainModel::reached_next_phase(const State& state, std::size_t group) const {
   const DrivePhase* next = next_phase(state, group);
-  return next != nullptr && next->at_position &&
-         place_of_first(state, group) >= *next->at_position;
+  return next != nullptr && next->at_position && place_of_first(state, group) >= *next->at_position;
 }
 
 /// Whether the train is still under way beyond the place where it should have stopped.
@@ -122,11 +121,10 @@ bool TrainModel::has_overspeed(const State& state, std::size_t group) const {
   const double first = place_of_first(state, group);
   const double last = first - static_cast<double>(cars_of(group) - 1) * train_.car_length;
   const double speed = std::abs(state.speed[groups_[group].begin]);
-  return std::any_of(train_.speed_limits.begin(), train_.speed_limits.end(),
-                     [&](const SpeedLimit& limit) {
-                       return first > limit.from && last < limit.to &&
-                              speed > limit.speed + kOverspeed;
-                     });
+  return std::any_of(
+      train_.speed_limits.begin(), train_.speed_limits.end(), [&](const SpeedLimit& limit) {
+        return first > limit.from && last < limit.to && speed > limit.speed + kOverspeed;
+      });
 }
 
 void TrainModel::decide(State& state, double time) const {
@@ -309,8 +307,8 @@ double TrainModel::highest_acceleration(double place, double speed, std::size_t 
 }
 
 /// The deceleration by the brakes of one unit. Those of a rigid train are the mean of its cars'.
-double TrainModel::braking_of(const Effort& now, const State& state, double time,
-                              std::size_t group, std::size_t unit) const {
+double TrainModel::braking_of(const Effort& now, const State& state, double time, std::size_t group,
+                              std::size_t unit) const {
   const bool is_rigid = masses_.size() == 1;
   const std::size_t first = groups_[group].begin;
   if (now.by_first_alone) {
@@ -500,7 +498,11 @@ Impact TrainModel::meeting_event(const State& state, std::size_t meeting, double
                         (behind.inertia + ahead.inertia);
   const TrackPoint point = track_.at(state.place[unit_behind]);
   const bool every_car = train_.track_every_car;
-  return {time, -1, point.position, passed * direction(point.heading), kind,
+  return {time,
+          -1,
+          point.position,
+          passed * direction(point.heading),
+          kind,
           every_car ? static_cast<int>(unit_behind) : 0,
           every_car ? static_cast<int>(unit_ahead) : -1};
 }
@@ -518,8 +520,7 @@ void TrainModel::log_touches(const State& before, const State& after, double tim
   const TrackPoint point = track_.at(after.place[front_]);
   const Consist stopped = consist_of(after, groups_.size() - 1, false);
   log->push_back({time, -1, point.position, -stopped.momentum * direction(point.heading),
-                  EventKind::kContact,
-                  train_.track_every_car ? static_cast<int>(front_) : 0});
+                  EventKind::kContact, train_.track_every_car ? static_cast<int>(front_) : 0});
 }
 
 std::optional<double> TrainModel::coupler_force(const State& state, int object) const {
@@ -555,7 +556,8 @@ void TrainModel::advance(State& state, const Environment&, double from, double t
 }
 
 TrainModel::End TrainModel::front(const State& state) const {
-  return {front_, static_cast<int>(front_), state.place[front_] + 0.5 * train_.car_length, state.speed[front_]};
+  return {front_, static_cast<int>(front_), state.place[front_] + 0.5 * train_.car_length,
+          state.speed[front_]};
 }
 
 TrainModel::End TrainModel::rear(const State& state) const {

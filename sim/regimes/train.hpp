@@ -134,8 +134,9 @@ struct SpeedLimit {
              .required = true,
              .minimum = -1e6,
              .maximum = 1e6});
-    v.field("speed", &SpeedLimit::speed,
-            {.unit = "m/s", .meaning = "at most", .required = true, .above = 0.0, .maximum = 150.0});
+    v.field(
+        "speed", &SpeedLimit::speed,
+        {.unit = "m/s", .meaning = "at most", .required = true, .above = 0.0, .maximum = 150.0});
   }
 
   template <class Report>
@@ -147,7 +148,8 @@ struct SpeedLimit {
 /// Cars that stand or roll on the same track ahead of the train, or another train.
 struct CarsAhead {
   static constexpr std::string_view about =
-      "cars on the same track ahead of the train, without an engine or brakes: what comes up pushes "
+      "cars on the same track ahead of the train, without an engine or brakes: what comes up "
+      "pushes "
       "them; with `drive` another train, with the engine and the brakes of this one";
   double start = 0.0;
   int cars = 1;
@@ -172,9 +174,10 @@ struct CarsAhead {
             {.unit = "m/s", .meaning = "at the start", .minimum = -50.0, .maximum = 50.0});
     v.field("couples", &CarsAhead::couples,
             {.meaning = "couple to what comes up behind them; otherwise they only buffer"});
-    v.field("drive", &CarsAhead::drive,
-            {.meaning = "what their driver does, in this order; places are those of their foremost car",
-             .max_items = 1000});
+    v.field(
+        "drive", &CarsAhead::drive,
+        {.meaning = "what their driver does, in this order; places are those of their foremost car",
+         .max_items = 1000});
   }
 };
 
@@ -273,12 +276,13 @@ struct Train {
              .meaning = "place of the first car's centre on the track at the start",
              .minimum = -1e6,
              .maximum = 1e6});
-    v.field("speed", &Train::speed,
-            {.unit = "m/s",
-             .meaning = "at the start, kept exactly until the first drive phase; with cars `ahead` or "
-                        "a buffer stop, or once it has met another train, it coasts until then",
-             .minimum = -150.0,
-             .maximum = 150.0});
+    v.field(
+        "speed", &Train::speed,
+        {.unit = "m/s",
+         .meaning = "at the start, kept exactly until the first drive phase; with cars `ahead` or "
+                    "a buffer stop, or once it has met another train, it coasts until then",
+         .minimum = -150.0,
+         .maximum = 150.0});
     v.field("drive", &Train::drive,
             {.meaning = "what the driver does, in this order", .max_items = 1000});
     v.field("cars", &Train::cars,
@@ -344,24 +348,27 @@ struct Train {
     v.field("couples", &Train::couples,
             {.meaning = "couples to a train, another target, that it meets where their tracks are "
                         "one and the same, if that does so too; otherwise they only buffer"});
-    v.field("grades", &Train::grades,
-            {.meaning = "gradients by place, besides that of a track which is drawn uphill in a side "
-                        "view",
-             .max_items = 10000});
+    v.field(
+        "grades", &Train::grades,
+        {.meaning = "gradients by place, besides that of a track which is drawn uphill in a side "
+                    "view",
+         .max_items = 10000});
     v.field("schematic_curves", &Train::schematic_curves,
             {.meaning = "curve resistance where the track is drawn straight", .max_items = 10000});
-    v.field("brake_pipe_speed", &Train::brake_pipe_speed,
-            {.unit = "m/s",
-             .meaning = "at which the driver's brake reaches one car after the other: about 250 for "
-                        "air; left out: all brake at once",
-             .minimum = 10.0,
-             .maximum = 1e4});
+    v.field(
+        "brake_pipe_speed", &Train::brake_pipe_speed,
+        {.unit = "m/s",
+         .meaning = "at which the driver's brake reaches one car after the other: about 250 for "
+                    "air; left out: all brake at once",
+         .minimum = 10.0,
+         .maximum = 1e4});
     v.field("speed_limits", &Train::speed_limits,
             {.meaning = "limits by place", .max_items = 1000});
-    v.field("ahead", &Train::ahead,
-            {.meaning = "cars on the same track ahead, the nearest first; needs `couplers`. They are "
-                        "objects with track_every_car",
-             .max_items = 20});
+    v.field(
+        "ahead", &Train::ahead,
+        {.meaning = "cars on the same track ahead, the nearest first; needs `couplers`. They are "
+                    "objects with track_every_car",
+         .max_items = 20});
     v.field("buffer_stop", &Train::buffer_stop,
             {.meaning = "where the track ends; needs `couplers`"});
   }
@@ -425,10 +432,10 @@ class TrainModel {
   /// Along the track, per car that moves by itself: one if the couplers are rigid; then the cars of
   /// the groups ahead, the foremost of each first.
   struct State {
-    std::vector<double> place;  // arc length of the centres, first car first [m]
-    std::vector<double> speed;  // [m/s]
+    std::vector<double> place;    // arc length of the centres, first car first [m]
+    std::vector<double> speed;    // [m/s]
     std::vector<Driver> drivers;  // of the train, and of each group ahead
-    std::vector<bool> joined;   // of each place where groups of cars meet: they are coupled
+    std::vector<bool> joined;     // of each place where groups of cars meet: they are coupled
     std::vector<Neighbour> neighbours = {};
     std::vector<double> pushes = {};  // of other trains [N]; none before the first touch
   };
@@ -480,7 +487,7 @@ class TrainModel {
     std::size_t ahead;
     bool couples;
   };
-  struct Consist {  // what is coupled
+  struct Consist {          // what is coupled
     double inertia = 0.0;   // with that of its wheels [kg]
     double momentum = 0.0;  // the same [kg m/s]
   };
@@ -549,7 +556,7 @@ class TrainModel {
   std::vector<Group> groups_;
   std::vector<Meeting> meetings_;  // of each group with the next
   std::size_t front_ = 0;          // the foremost unit
-  std::vector<double> masses_;  // of what moves by itself: the train, or each sprung car [kg]
+  std::vector<double> masses_;     // of what moves by itself: the train, or each sprung car [kg]
   double longest_step_ = std::numeric_limits<double>::infinity();  // that the couplers allow [s]
 };
 

@@ -18,8 +18,7 @@ using Folders = std::vector<std::string>;
 /// What each folder may include, beside itself. A file of a longer path obeys the longest match.
 const std::map<std::string, Folders> kAllowed = {
     {"sim", {}},
-    {"tracker",
-     {"sensors/detection.hpp", "sensors/field_of_view.hpp", "sim/portable_math.hpp"}},
+    {"tracker", {"sensors/detection.hpp", "sensors/field_of_view.hpp", "sim/portable_math.hpp"}},
     {"tracker/filters", {"sensors/measurement.hpp", "sim/portable_math.hpp"}},
     {"tracker/filters/filter.hpp",
      {"tracker/filters", "sensors/detection.hpp", "sim/portable_math.hpp"}},

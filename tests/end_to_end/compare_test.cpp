@@ -372,8 +372,8 @@ TEST_F(Compare, TunesGainsAndWritesThem) {
   EXPECT_EQ(run(tune + "--jobs 1").exit_code, 0);
 }
 
-// Property: filters that are tuned first are tuned once and alike, whoever computes which runs, and an
-// interrupted comparison goes on with those that it had found.
+// Property: filters that are tuned first are tuned once and alike, whoever computes which runs, and
+// an interrupted comparison goes on with those that it had found.
 TEST_F(Compare, TunesAlikeHoweverTheRunsAreDealtOut) {
   std::string text = kFlyBall;
   text.replace(text.find("  filters:"), 10, "  tuned: [gh, kalman]\n  filters:");
@@ -398,8 +398,8 @@ TEST_F(Compare, TunesAlikeHoweverTheRunsAreDealtOut) {
   expect_as_unbroken("ranks");
 }
 
-// Property: the study tunes, compares, draws and writes its table; a second call has nothing to do and
-// writes the same.
+// Property: the study tunes, compares, draws and writes its table; a second call has nothing to do
+// and writes the same.
 TEST_F(Compare, MakesTheStudy) {
   const fs::path root(GHTRACK_SOURCE_DIR);
   fs::create_directories(folder() / "tools");

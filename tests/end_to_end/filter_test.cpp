@@ -1,4 +1,5 @@
-// `ghtrack filter` on the series that people have: times of their own, wrong stamps, angles, no guess.
+// `ghtrack filter` on the series that people have: times of their own, wrong stamps, angles, no
+// guess.
 
 #include <gmock/gmock.h>
 
@@ -62,22 +63,23 @@ TEST(FilterCommand, TakesTheStepFromTheTimes) {
 
 // Property: without a guess it starts at the first measurement and says so.
 TEST(FilterCommand, StartsAtTheFirstMeasurement) {
-  const Filtered result = filtered("zx,zy\n126.4,37.4\n126.5,37.5\n126.6,37.6\n", "--g 0.5 --h 0.1");
+  const Filtered result =
+      filtered("zx,zy\n126.4,37.4\n126.5,37.5\n126.6,37.6\n", "--g 0.5 --h 0.1");
   EXPECT_EQ(result.rows[1][8], "");  // the residual
   EXPECT_EQ(std::stod(result.rows[1][10]), 126.4);
   EXPECT_NEAR(result.last("x_x"), 126.6, 0.1);
   EXPECT_THAT(result.err, HasSubstr("--x0"));
 }
 
-// Property: stamps from the future and from the past are left out by name and line; the rest counts.
+// Property: stamps from the future and from the past are left out by name and line; the rest
+// counts.
 TEST(FilterCommand, LeavesOutFalseStampsAlone) {
   std::string series = "t,z\n";
   for (int i = 0; i < 40; ++i) {
     const std::string t = i == 12 ? "5000" : i == 13 ? "5001" : i == 25 ? "3" : std::to_string(i);
     series += t + "," + std::to_string(10 + 2 * i) + "\n";
   }
-  const Filtered result =
-      filtered(series, "--t-column t --dt 1 --g 0.5 --h 0.2 --x0 8 --dx0 2");
+  const Filtered result = filtered(series, "--t-column t --dt 1 --g 0.5 --h 0.2 --x0 8 --dx0 2");
   EXPECT_NEAR(result.last("x"), 88.0, 1e-6);
   EXPECT_NEAR(result.last("dx"), 2.0, 1e-6);
   for (const char* place : {"series.csv:14", "series.csv:15", "series.csv:27"}) {
@@ -103,16 +105,16 @@ TEST(FilterCommand, ToleratesRepeatedFixes) {
   std::string series = "t,zx,zy\n";
   for (int i = 0; i < 60; ++i) {
     for (const double echo : i % 5 == 2 ? std::vector{0.0, 0.002} : std::vector{0.0}) {
-      series += std::to_string(i + echo) + "," + std::to_string(3.0 * i + std::sin(7.0 * i + echo)) +
-                ",0\n";
+      series += std::to_string(i + echo) + "," +
+                std::to_string(3.0 * i + std::sin(7.0 * i + echo)) + ",0\n";
     }
   }
   const Filtered result = filtered(series, "--t-column t --g 0.4 --h 0.1");
   EXPECT_NEAR(result.last("x_x"), 177.0, 3.0);
 }
 
-// Property: a configuration as in a scene is the same filter as its short options, and a faulty one is
-// refused by key and place.
+// Property: a configuration as in a scene is the same filter as its short options, and a faulty one
+// is refused by key and place.
 TEST(FilterCommand, ReadsConfigurationsAsAScene) {
   const std::string series = line(1.0, 0.5, 1.0, 20);
   const Filtered result = filtered(series, "--filter '{ghk: {g: 0.5, h: 0.2, k: 0.05}}' --x0 0");

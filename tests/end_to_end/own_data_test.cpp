@@ -56,12 +56,13 @@ TEST(OwnData, ScoreAgreesWithTheRun) {
                             "sensors/late_radar.yaml", "tracking/crossing.yaml"}) {
     SCOPED_TRACE(scene);
     const TemporaryFolder folder;
-    ASSERT_EQ(shell("ghtrack run " + scene_file(scene).string() +
-                        " --duration 5 --no-video -q -o run",
-                    folder.path())
-                  .exit_code,
-              0);
-    const Outcome outcome = shell("ghtrack score --truth run --tracks run --json -q", folder.path());
+    ASSERT_EQ(
+        shell("ghtrack run " + scene_file(scene).string() + " --duration 5 --no-video -q -o run",
+              folder.path())
+            .exit_code,
+        0);
+    const Outcome outcome =
+        shell("ghtrack score --truth run --tracks run --json -q", folder.path());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto scored = nlohmann::json::parse(outcome.out);
     const auto run = nlohmann::json::parse(contents(folder.path() / "run/metrics.json"));
@@ -81,7 +82,8 @@ TEST(OwnData, ScoreAgreesWithTheRun) {
 // Property: what is said aloud is silent with --quiet, and bad rows are refused or counted.
 TEST(OwnData, TellsWhatItUnderstood) {
   const TemporaryFolder folder;
-  write(folder.path() / "d.csv", "Time (ms);East (cm);North (cm)\n0;1,5;2\n100;oops;3\n200;2,5;3\n");
+  write(folder.path() / "d.csv",
+        "Time (ms);East (cm);North (cm)\n0;1,5;2\n100;oops;3\n200;2,5;3\n");
   const Outcome refused = shell("ghtrack track d.csv -o t.csv", folder.path());
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("d.csv:3:5: error: 'oops' in column 'East (cm)'"));
@@ -147,14 +149,16 @@ TEST(OwnData, IsDescribedByOptionsOrByAFile) {
   const TemporaryFolder folder;
   std::string rows = "t,x,y\n";
   for (int i = 0; i < 40; ++i) {
-    rows += std::to_string(i) + "," + std::to_string(3 * i + i % 3) + "," + std::to_string(i % 2) + "\n";
+    rows += std::to_string(i) + "," + std::to_string(3 * i + i % 3) + "," + std::to_string(i % 2) +
+            "\n";
   }
   write(folder.path() / "in.csv", rows);
   write(folder.path() / "tracker.yaml",
         "noise: 0.7\ndetection_probability: 0.9\nclutter: 0.01\ntracker: {life_cycle: counts}\n");
   const Outcome by_file = shell("ghtrack track in.csv --config tracker.yaml", folder.path());
-  const Outcome by_options = shell(
-      "ghtrack track in.csv --noise 0.7 --pd 0.9 --clutter 0.01 --life-cycle counts", folder.path());
+  const Outcome by_options =
+      shell("ghtrack track in.csv --noise 0.7 --pd 0.9 --clutter 0.01 --life-cycle counts",
+            folder.path());
   ASSERT_EQ(by_file.exit_code, 0) << by_file.err;
   EXPECT_EQ(by_options.out, by_file.out);
   EXPECT_EQ(by_options.err, by_file.err);
@@ -196,7 +200,8 @@ TEST(OwnData, ScoresSeveralSequences) {
     fs::create_directories(folder.path() / "results");
     std::string truth, tracks;
     for (int frame = 1; frame <= 10; ++frame) {
-      const std::string row = std::to_string(frame) + ",1," + std::to_string(3 * frame) + ",0,40,90,";
+      const std::string row =
+          std::to_string(frame) + ",1," + std::to_string(3 * frame) + ",0,40,90,";
       truth += row + "1,1,1\n";
       if (*name == 'A' || frame > 5) tracks += row + "1,-1,-1,-1\n";
     }
@@ -220,7 +225,8 @@ TEST(OwnData, FilterReadsTablesAsTrackDoes) {
   std::string plain = "t,z\n", written = "\xef\xbb\xbf# logger\r\nTime (ms);Height (mm)\r\n";
   for (int i = 0; i < 30; ++i) {
     const std::string value = std::to_string(100 + 5 * i);
-    plain += std::to_string(i / 10) + "." + std::to_string(i % 10) + "," + (i == 7 ? "" : "0." + value) + "\n";
+    plain += std::to_string(i / 10) + "." + std::to_string(i % 10) + "," +
+             (i == 7 ? "" : "0." + value) + "\n";
     written += std::to_string(100 * i) + ";" + (i == 7 ? "NA" : value + ",0") + "\r\n";
   }
   write(folder.path() / "plain.csv", plain);
@@ -231,11 +237,13 @@ TEST(OwnData, FilterReadsTablesAsTrackDoes) {
   EXPECT_EQ(expected.err, "");  // nothing had to be understood
   const Outcome outcome = shell("ghtrack filter written.txt" + gains, folder.path());
   EXPECT_EQ(outcome.out, expected.out);
-  EXPECT_THAT(outcome.err, HasSubstr("30 rows (semicolons, decimal comma), t (ms) from 'Time (ms)', z "
-                                     "(mm, as m) from 'Height (mm)'; 1 rows without a measurement"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("30 rows (semicolons, decimal comma), t (ms) from 'Time (ms)', z "
+                        "(mm, as m) from 'Height (mm)'; 1 rows without a measurement"));
   EXPECT_EQ(shell("ghtrack -q filter written.txt" + gains, folder.path()).err, "");
-  EXPECT_EQ(shell("ghtrack filter written.txt --columns 't=Time (ms),z=2'" + gains, folder.path()).out,
-            expected.out);
+  EXPECT_EQ(
+      shell("ghtrack filter written.txt --columns 't=Time (ms),z=2'" + gains, folder.path()).out,
+      expected.out);
   EXPECT_EQ(shell("cat written.txt | ghtrack filter -q" + gains, folder.path()).out, expected.out);
 }
 
@@ -245,12 +253,13 @@ TEST(OwnData, SeriesSceneReadsAFile) {
   fs::create_directories(folder.path() / "scenes");
   std::string table = "Time (s);Height (m);truth\n";
   for (int i = 0; i < 20; ++i) {
-    table += std::to_string(i / 2) + (i % 2 == 0 ? ",0;" : ",5;") + (i == 4 ? "-" : std::to_string(3 + i)) + ";" +
-             std::to_string(3 + i) + "\n";
+    table += std::to_string(i / 2) + (i % 2 == 0 ? ",0;" : ",5;") +
+             (i == 4 ? "-" : std::to_string(3 + i)) + ";" + std::to_string(3 + i) + "\n";
   }
   write(folder.path() / "scenes" / "height.txt", table);
   write(folder.path() / "scenes" / "height.yaml",
-        "kind: series\ngiven: {file: height.txt}\nfilters: [{name: a, x0: 2, dx0: 2, g: 0.4, h: 0.1}]\n");
+        "kind: series\ngiven: {file: height.txt}\nfilters: [{name: a, x0: 2, dx0: 2, g: 0.4, h: "
+        "0.1}]\n");
   const Outcome outcome = shell("ghtrack run scenes/height.yaml --plots -o out", folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("20 rows (semicolons, decimal comma)"));
@@ -261,11 +270,14 @@ TEST(OwnData, SeriesSceneReadsAFile) {
   EXPECT_THAT(contents(folder.path() / "out" / "plots.svg"), HasSubstr("<svg"));
   fs::remove_all(folder.path() / "scenes");
   ASSERT_EQ(shell("ghtrack run out/scene.yaml -q -o again", folder.path()).exit_code, 0);
-  for (const char* name : {"scene.yaml", "series.csv", "metrics.json", "measurements.csv", "plot.png"}) {
-    EXPECT_EQ(contents(folder.path() / "again" / name), contents(folder.path() / "out" / name)) << name;
+  for (const char* name :
+       {"scene.yaml", "series.csv", "metrics.json", "measurements.csv", "plot.png"}) {
+    EXPECT_EQ(contents(folder.path() / "again" / name), contents(folder.path() / "out" / name))
+        << name;
   }
-  const Outcome filtered = shell(
-      "ghtrack filter out/measurements.csv --t-column t --g 0.4 --h 0.1 --x0 2 --dx0 2 -q", folder.path());
+  const Outcome filtered =
+      shell("ghtrack filter out/measurements.csv --t-column t --g 0.4 --h 0.1 --x0 2 --dx0 2 -q",
+            folder.path());
   write(folder.path() / "filtered.csv", filtered.out);
   const auto filter_rows = csv_rows(folder.path() / "filtered.csv");
   EXPECT_EQ(filter_rows.back()[6], rows.back()[7]);  // x
@@ -280,7 +292,8 @@ TEST(OwnData, CheckReadsTheFileOfASeries) {
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.err, HasSubstr("d.csv"));
   write(folder.path() / "d.csv", "z\n1\noops\n");
-  EXPECT_THAT(shell("ghtrack check s.yaml", folder.path()).err, HasSubstr("d.csv:3:1: error: 'oops'"));
+  EXPECT_THAT(shell("ghtrack check s.yaml", folder.path()).err,
+              HasSubstr("d.csv:3:1: error: 'oops'"));
 }
 
 // Property: the matches of a run are those that `score` finds in its files.
@@ -291,7 +304,9 @@ TEST(OwnData, RunWritesMatchesAndPlots) {
                   folder.path())
                 .exit_code,
             0);
-  ASSERT_EQ(shell("ghtrack score --truth run --tracks run -q --matches m.csv", folder.path()).exit_code, 0);
+  ASSERT_EQ(
+      shell("ghtrack score --truth run --tracks run -q --matches m.csv", folder.path()).exit_code,
+      0);
   EXPECT_EQ(contents(folder.path() / "run" / "matches.csv"), contents(folder.path() / "m.csv"));
   EXPECT_THAT(contents(folder.path() / "run" / "plots.svg"), HasSubstr("<svg"));
   const auto tracks = csv_rows(folder.path() / "run" / "tracks.csv");
@@ -310,7 +325,8 @@ TEST(OwnData, TracksAreFilmed) {
   fs::rename(folder.path() / "img1", folder.path() / "street" / "img1");
   std::string boxes;
   for (int frame = 1; frame <= 10; ++frame) {
-    boxes += std::to_string(frame) + ",-1," + std::to_string(20 + 4 * frame) + ",60,40,90,0.9,-1,-1,-1\n";
+    boxes += std::to_string(frame) + ",-1," + std::to_string(20 + 4 * frame) +
+             ",60,40,90,0.9,-1,-1,-1\n";
   }
   write(folder.path() / "street" / "det" / "det.txt", boxes);
   const Outcome sequence =
@@ -319,16 +335,18 @@ TEST(OwnData, TracksAreFilmed) {
   EXPECT_THAT(sequence.err, HasSubstr("street.mp4: 10 pictures of 320x180 at 10 Hz"));
   EXPECT_GT(fs::file_size(folder.path() / "street.mp4"), 2000U);
   const std::string walk = (fs::path(GHTRACK_SOURCE_DIR) / "tools/data/examples/walk.csv").string();
-  const Outcome points = shell("ghtrack track " + walk + " -o walk.csv --video walk.png", folder.path());
+  const Outcome points =
+      shell("ghtrack track " + walk + " -o walk.csv --video walk.png", folder.path());
   ASSERT_EQ(points.exit_code, 0) << points.err;
   EXPECT_THAT(points.err, HasSubstr("times as fast"));
-  const Outcome smooth = shell(
-      "ghtrack track " + walk + " --smooth -o smooth.csv --video smooth.png", folder.path());
+  const Outcome smooth =
+      shell("ghtrack track " + walk + " --smooth -o smooth.csv --video smooth.png", folder.path());
   ASSERT_EQ(smooth.exit_code, 0) << smooth.err;
   EXPECT_NE(contents(folder.path() / "smooth.png"), contents(folder.path() / "walk.png"));
-  const Outcome late = shell("ghtrack track " + walk +
-                                 " -o w.csv --video late.mp4 --background street.mp4 --video-start 0",
-                             folder.path());
+  const Outcome late =
+      shell("ghtrack track " + walk +
+                " -o w.csv --video late.mp4 --background street.mp4 --video-start 0",
+            folder.path());
   EXPECT_THAT(late.err, HasSubstr("no picture shows a track"));
 }
 
@@ -345,7 +363,8 @@ TEST(OwnData, ReadsAndWritesLabelsOfKitti) {
   const Outcome tracked = shell("ghtrack track labels.txt -o tracks.txt", folder.path());
   ASSERT_EQ(tracked.exit_code, 0) << tracked.err;
   EXPECT_THAT(contents(folder.path() / "tracks.txt"), HasSubstr(" Car -1 -1 -10 "));
-  const Outcome scored = shell("ghtrack score --truth labels.txt --tracks labels.txt --json", folder.path());
+  const Outcome scored =
+      shell("ghtrack score --truth labels.txt --tracks labels.txt --json", folder.path());
   EXPECT_EQ(nlohmann::json::parse(scored.out).at("mota"), 1.0);
   EXPECT_THAT(scored.err, HasSubstr("KITTI"));
 }

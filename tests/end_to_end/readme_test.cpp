@@ -45,7 +45,8 @@ class Readme : public ::testing::TestWithParam<std::vector<std::string>> {};
 
 void expect_success(const std::string& command, const fs::path& folder) {
   const bool starts_mpi = command.starts_with("mpirun ");  // Open MPI itself leaks
-  const Outcome outcome = shell((starts_mpi ? "ASAN_OPTIONS=detect_leaks=0 " : "") + command, folder);
+  const Outcome outcome =
+      shell((starts_mpi ? "ASAN_OPTIONS=detect_leaks=0 " : "") + command, folder);
   const bool needs_wasm = outcome.err.find("compiler for WebAssembly") != std::string::npos;
   EXPECT_EQ(outcome.exit_code, needs_wasm ? 1 : 0) << command << "\n" << outcome.err;
 }

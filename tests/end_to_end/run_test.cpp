@@ -235,7 +235,8 @@ TEST_F(Run, ReplayedScansHelpLessThanPromptOnesAndMoreThanNone) {
   EXPECT_EQ(refused["arrivals"]["scans"]["radar"]["refused"], 45);
 }
 
-// Property: what is known afterwards stands in columns of its own, the causal ones stay as they are.
+// Property: what is known afterwards stands in columns of its own, the causal ones stay as they
+// are.
 TEST_F(Run, SmoothAddsColumnsAndChangesNone) {
   const std::string scene = "run " + quoted(scene_file("trains.yaml")) + " --duration 5 --no-video";
   ASSERT_EQ(ghtrack(scene + " -o causal").exit_code, 0);
@@ -244,10 +245,10 @@ TEST_F(Run, SmoothAddsColumnsAndChangesNone) {
   const auto both = csv_rows(folder() / "both" / "tracks.csv");
   ASSERT_EQ(both.size(), causal.size());
   const std::size_t columns = causal.front().size();
-  EXPECT_THAT(std::vector(both.front().begin() + static_cast<std::ptrdiff_t>(columns),
-                          both.front().end()),
-              ElementsAre("x_smooth", "y_smooth", "vx_smooth", "vy_smooth", "ax_smooth",
-                          "ay_smooth", "sigma_x_smooth", "sigma_y_smooth"));
+  EXPECT_THAT(
+      std::vector(both.front().begin() + static_cast<std::ptrdiff_t>(columns), both.front().end()),
+      ElementsAre("x_smooth", "y_smooth", "vx_smooth", "vy_smooth", "ax_smooth", "ay_smooth",
+                  "sigma_x_smooth", "sigma_y_smooth"));
   for (std::size_t i = 0; i < both.size(); ++i) {
     ASSERT_EQ(both[i].size(), columns + 8);
     EXPECT_TRUE(std::equal(causal[i].begin(), causal[i].end(), both[i].begin())) << "row " << i;

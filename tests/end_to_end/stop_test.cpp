@@ -43,10 +43,10 @@ TEST_P(Stop, ComesWhateverTheCommandIsBusyWith) {
   for (const auto& [signal, exit_code] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
     const TemporaryFolder folder;
     write_crowd(folder.path() / "crowd.csv", 3000, 300);
-    const Outcome outcome = shell(GetParam().prepare + GetParam().command +
-                                      " & pid=$!; sleep 1; kill -" + signal +
-                                      " $pid; timeout 20 tail --pid=$pid -f /dev/null && wait $pid",
-                                  folder.path());
+    const Outcome outcome =
+        shell(GetParam().prepare + GetParam().command + " & pid=$!; sleep 1; kill -" + signal +
+                  " $pid; timeout 20 tail --pid=$pid -f /dev/null && wait $pid",
+              folder.path());
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
     for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
@@ -103,7 +103,8 @@ TEST(TwoProcesses, NeverMixTheirFiles) {
     for (const std::string name : {"truth.csv", "detections.csv", "origins.csv", "tracks.csv",
                                    "metrics.json", "scene.yaml"}) {
       const std::string seed = contents(folder.path() / "race" / "scene.yaml");
-      const std::string winner = seed == contents(folder.path() / "one" / "scene.yaml") ? "one" : "two";
+      const std::string winner =
+          seed == contents(folder.path() / "one" / "scene.yaml") ? "one" : "two";
       EXPECT_EQ(contents(folder.path() / "race" / name), contents(folder.path() / winner / name));
     }
     EXPECT_THAT(names_in(folder.path() / "race"), Each(Not(HasSubstr("partial"))));
@@ -187,8 +188,7 @@ TEST(Threads, AreNotNeeded) {
   const TemporaryFolder folder;
   const std::string compare = "ghtrack compare " + kQuotedScene + " -q --runs 4 --duration 2 ";
   ASSERT_EQ(shell(compare + "--jobs 1 -o one", folder.path()).exit_code, 0);
-  for (const std::string limit : {"ulimit -v 200000", "ulimit -v 120000",
-                                  "ulimit -v 30000"}) {
+  for (const std::string limit : {"ulimit -v 200000", "ulimit -v 120000", "ulimit -v 30000"}) {
     for (const std::string& command :
          {compare + "--jobs 4 -o four",
           "ghtrack tune " + kQuotedScene + " -q --runs 2 --duration 2",

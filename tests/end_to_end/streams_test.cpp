@@ -21,14 +21,14 @@ std::string some_detections() {
   std::string text = "t,x,y\n";
   for (int i = 0; i < 60; ++i) {
     const double wave = std::sin(2.0 * std::numbers::pi * i / 40.0);
-    text += std::to_string(0.1 * i) + "," + std::to_string(0.5 * i) + "," + std::to_string(wave) +
-            "\n";
+    text +=
+        std::to_string(0.1 * i) + "," + std::to_string(0.5 * i) + "," + std::to_string(wave) + "\n";
   }
   return text;
 }
 
 struct Way {
-  std::string command;    // writes into the file `out`, or `target` through a link
+  std::string command;  // writes into the file `out`, or `target` through a link
   std::string out = "out";
 };
 
@@ -90,10 +90,10 @@ TEST(Streams, AreTakenByEveryCommand) {
     const Outcome outcome = shell(command, folder.path());
     EXPECT_EQ(outcome.exit_code, 0) << command << "\n" << outcome.err;
   }
-  for (const std::string command : {"run scenes/throwing.yaml --duration 1 --no-video -o -",
-                                    "compare scenes/throwing.yaml --runs 1 -o -",
-                                    "tune scenes/throwing.yaml --runs 1 -o -",
-                                    "video scenes/throwing.yaml --to 0.1 -o -"}) {
+  for (const std::string command :
+       {"run scenes/throwing.yaml --duration 1 --no-video -o -",
+        "compare scenes/throwing.yaml --runs 1 -o -", "tune scenes/throwing.yaml --runs 1 -o -",
+        "video scenes/throwing.yaml --to 0.1 -o -"}) {
     const Outcome outcome = shell("ghtrack " + command, folder.path());
     EXPECT_EQ(outcome.exit_code, 2) << command;
     EXPECT_FALSE(fs::exists(folder.path() / "-")) << command;
@@ -108,9 +108,11 @@ TEST(Streams, MayBeClosedOrFullWhereMessagesGo) {
   write(folder.path() / "d.csv", some_detections());
   for (const std::string where : {"2>&-", "2>/dev/full", "<&- 2>&-"}) {
     for (const auto& [command, exit_code] :
-         {std::pair<std::string, int>{"run missing.yaml", 2}, {"nonsense", 2},
+         {std::pair<std::string, int>{"run missing.yaml", 2},
+          {"nonsense", 2},
           {"run " + scene + " --duration 1 --no-video -o results", 0},
-          {"track d.csv --timings -o tracks.csv", 0}, {"gains manual --g 0.5 --h 3.9", 0},
+          {"track d.csv --timings -o tracks.csv", 0},
+          {"gains manual --g 0.5 --h 3.9", 0},
           {"run " + scene + " --duration 1 --no-video -o /proc/nowhere", 1}}) {
       const Outcome outcome = shell("ghtrack " + command + " " + where, folder.path());
       EXPECT_EQ(outcome.exit_code, exit_code) << command << " " << where;

@@ -16,12 +16,14 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<std::string> kCommands = {"run",    "video", "view",  "compare", "tune", "check",
-                                            "filter", "gains", "track", "score",   "plot", "schema"};
+const std::vector<std::string> kCommands = {"run",   "video", "view",   "compare",
+                                            "tune",  "check", "filter", "gains",
+                                            "track", "score", "plot",   "schema"};
 
 std::size_t characters(const std::string& line) {
-  return static_cast<std::size_t>(std::count_if(
-      line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -52,7 +54,8 @@ TEST_F(Usage, NoValueIsEmpty) {
       ++options;
       const Outcome outcome = ghtrack(command + " " + option.str(1) + " ''");
       EXPECT_EQ(outcome.exit_code, 2) << command << line;
-      EXPECT_THAT(outcome.err, AnyOf(HasSubstr(" is empty\n"), HasSubstr(option.str(1) + " is ''")));
+      EXPECT_THAT(outcome.err,
+                  AnyOf(HasSubstr(" is empty\n"), HasSubstr(option.str(1) + " is ''")));
     }
   }
   EXPECT_GT(options, 80);
@@ -62,19 +65,23 @@ TEST_F(Usage, NoValueIsEmpty) {
 TEST_F(Usage, OptionsOfKeysRepeat) {
   const std::string run = "run scenes/throwing.yaml -q --no-video -o a ";
   ASSERT_EQ(ghtrack(run + "--set duration=1 --set sensors[0].noise=0.25 --set seed=5 "
-                          "--set seed=6").exit_code, 0);
+                          "--set seed=6")
+                .exit_code,
+            0);
   const std::string scene = contents(folder() / "a" / "scene.yaml");
   EXPECT_THAT(scene, HasSubstr("duration: 1\n"));
   EXPECT_THAT(scene, HasSubstr("noise: 0.25"));
   EXPECT_THAT(scene, HasSubstr("seed: 6\n"));
   ASSERT_EQ(ghtrack("compare scenes/throwing.yaml -q --runs 1 --duration 1 -o c "
-                    "--sweep sensors[0].noise=0.3,1 --sweep sensors[0].rate=10,20,30").exit_code, 0);
+                    "--sweep sensors[0].noise=0.3,1 --sweep sensors[0].rate=10,20,30")
+                .exit_code,
+            0);
   const std::string table = contents(folder() / "c" / "comparison.csv");
   EXPECT_THAT(table, HasSubstr("sensors[0].noise=1, sensors[0].rate=30"));
   EXPECT_THAT(table, HasSubstr("sensors[0].noise=0.3, sensors[0].rate=10"));
-  const Outcome layers =
-      ghtrack("video --show fans --show grid --hide legend,hud scenes/throwing.yaml --to 0.1 "
-              "--size 320x180 -o p.png");
+  const Outcome layers = ghtrack(
+      "video --show fans --show grid --hide legend,hud scenes/throwing.yaml --to 0.1 "
+      "--size 320x180 -o p.png");
   EXPECT_EQ(layers.exit_code, 0) << layers.err;
 }
 
@@ -144,8 +151,8 @@ TEST_F(Usage, ShowsNamesHarmlessly) {
   for (const std::string& words :
        {std::string("run scene.yaml --no-video -o $(printf 'r\\033[31m')"),
         std::string("check $(printf 'no\\033[2J\\342\\200\\256such.yaml')"),
-        "check scenes/throwing.yaml --set " + huge + "=1", "check " + huge + ".yaml",
-        "--" + huge, huge, "gains " + huge, "video scenes/throwing.yaml --show " + huge,
+        "check scenes/throwing.yaml --set " + huge + "=1", "check " + huge + ".yaml", "--" + huge,
+        huge, "gains " + huge, "video scenes/throwing.yaml --show " + huge,
         "score --truth " + huge + " --tracks " + huge,
         std::string("track $(printf 'no\\033[2J.csv')")}) {
     const Outcome outcome = ghtrack(words);
@@ -202,18 +209,17 @@ INSTANTIATE_TEST_SUITE_P(Commands, HelpOf, ::testing::ValuesIn(kCommands),
 
 // Derived: tables fit the terminal that COLUMNS tells of, and 80 columns without one.
 TEST_F(Usage, TablesFitTheTerminal) {
-  for (const std::string words :
-       {"run scenes/three_regimes.yaml -q --duration 3 --no-video -o a",
-        "compare scenes/three_regimes.yaml -q --runs 2 --duration 3 -o b",
-        "tune scenes/throwing.yaml -q --runs 2 --duration 3"}) {
-    for (const auto& [columns, width] :
-         std::vector<std::pair<std::string, std::size_t>>{{"", 80}, {"COLUMNS=60 ", 60},
-                                                         {"COLUMNS=200 ", 200}}) {
+  for (const std::string words : {"run scenes/three_regimes.yaml -q --duration 3 --no-video -o a",
+                                  "compare scenes/three_regimes.yaml -q --runs 2 --duration 3 -o b",
+                                  "tune scenes/throwing.yaml -q --runs 2 --duration 3"}) {
+    for (const auto& [columns, width] : std::vector<std::pair<std::string, std::size_t>>{
+             {"", 80}, {"COLUMNS=60 ", 60}, {"COLUMNS=200 ", 200}}) {
       const Outcome outcome = shell(columns + "ghtrack " + words, folder());
       ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
       const auto lines = lines_of(outcome.out);
       for (const std::string& line : lines) {
-        const bool is_row = line.find("  ", line.find_first_not_of(' ')) != std::string::npos;  // sentences may be longer
+        const bool is_row = line.find("  ", line.find_first_not_of(' ')) !=
+                            std::string::npos;  // sentences may be longer
         EXPECT_LE(is_row ? characters(line) : 0, width) << columns << line;
       }
     }

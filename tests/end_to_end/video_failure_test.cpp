@@ -92,11 +92,12 @@ TEST(VideoFailure, LeavesNothingOnAFullDisk) {
 // name.
 TEST(VideoFailure, KeepsWhatWasDoneWhenItIsAskedToStop) {
   const TemporaryFolder folder;
-  const Outcome outcome = shell(kVideo +
-                                    "-o x.mp4 --slow 100 & job=$!; "
-                                    "while [ ! -s .ghtrack-*/x.partial.mp4 ]; do sleep 0.05; done; sleep 0.5; "
-                                    "kill -TERM $job; wait $job",
-                                folder.path());
+  const Outcome outcome =
+      shell(kVideo +
+                "-o x.mp4 --slow 100 & job=$!; "
+                "while [ ! -s .ghtrack-*/x.partial.mp4 ]; do sleep 0.05; done; sleep 0.5; "
+                "kill -TERM $job; wait $job",
+            folder.path());
   EXPECT_EQ(outcome.exit_code, 128 + 15) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
   EXPECT_THAT(names_in(folder.path()), ElementsAre("x.partial.mp4"));
@@ -108,11 +109,11 @@ TEST(VideoFailure, KeepsWhatWasDoneWhenItIsAskedToStop) {
 // Derived: kill -9 leaves nothing under the final name.
 TEST(VideoFailure, LeavesNoFinalNameWhenItIsKilled) {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      shell(kVideo +
-                "-o x.mp4 --slow 100 & job=$!; "
-                "while [ ! -s .ghtrack-*/x.partial.mp4 ]; do sleep 0.05; done; kill -KILL $job; wait $job",
-            folder.path());
+  const Outcome outcome = shell(kVideo +
+                                    "-o x.mp4 --slow 100 & job=$!; "
+                                    "while [ ! -s .ghtrack-*/x.partial.mp4 ]; do sleep 0.05; done; "
+                                    "kill -KILL $job; wait $job",
+                                folder.path());
   EXPECT_EQ(outcome.exit_code, 128 + 9);
   EXPECT_THAT(names_in(folder.path()), Not(::testing::Contains("x.mp4")));
 }

@@ -153,7 +153,8 @@ TEST(Video, ShowsFromSomeTimeOnWhatTheWholeVideoShows) {
   constexpr int kRate = 10, kBefore = 15, kShown = 5;
   for (const auto& [scene, wish] : cases) {
     const TemporaryFolder folder;
-    const std::string options = "--to 2 --slow 1 --size 320x180 --fps " + std::to_string(kRate) + " " + wish;
+    const std::string options =
+        "--to 2 --slow 1 --size 320x180 --fps " + std::to_string(kRate) + " " + wish;
     const fs::path whole = video(folder, scene, "whole/", options);
     const fs::path late = video(folder, scene, "late/", "--from 1.5 " + options);
     EXPECT_EQ(names_in(late).size(), std::size_t{kShown}) << scene;
@@ -184,8 +185,9 @@ TEST(Video, LooksAsItsSceneSays) {
                                options + " --theme light --trail whole --text 1.3 --show smoothed");
   const auto by_scene =
       video(folder, "three_regimes.yaml", "scene.png",
-            options + " --set video.theme=light --set video.trail=1000 --set video.text=1.3 --show "
-                      "smoothed");
+            options +
+                " --set video.theme=light --set video.trail=1000 --set video.text=1.3 --show "
+                "smoothed");
   EXPECT_TRUE(contents(by_option) == contents(by_scene));
   const auto without = video(folder, "three_regimes.yaml", "without.png",
                              options + " --theme light --trail whole --text 1.3");
@@ -196,8 +198,8 @@ TEST(Video, LooksAsItsSceneSays) {
 TEST(Video, ShowsThePathsOfLongScenes) {
   const TemporaryFolder folder;
   const auto picture = [&](const std::string& name, const std::string& trail) {
-    return contents(video(folder, "tracking/crossing.yaml", name,
-                          "--from 40 --to 40 --size 640x360" + trail));
+    return contents(
+        video(folder, "tracking/crossing.yaml", name, "--from 40 --to 40 --size 640x360" + trail));
   };
   const std::string usual = picture("usual.png", "");
   EXPECT_TRUE(usual == picture("eighth.png", " --trail 12.5"));

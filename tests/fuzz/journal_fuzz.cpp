@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 /// A campaign of two runs, and a file of it that has no runs yet.
 struct Sample {
   ghtrack::Campaign campaign = {
-      {{std::get<ghtrack::WorldScene>(ghtrack::read_scene_text(
-            "duration: 1\ntargets: [{name: a, ball: {position: [0, 1]}}]\n"
-            "sensors: [{rate: 10}]\ncompare: {runs: 2}\n",
-            "sample.yaml")),
+      {{std::get<ghtrack::WorldScene>(
+            ghtrack::read_scene_text("duration: 1\ntargets: [{name: a, ball: {position: [0, 1]}}]\n"
+                                     "sensors: [{rate: 10}]\ncompare: {runs: 2}\n",
+                                     "sample.yaml")),
         "sample.yaml", ""}}};
   ghtrack::Trial trial{campaign.cells[0].scene};
   fs::path folder = fs::temp_directory_path() / ("ghtrack-fuzz-" + std::to_string(::getpid()));

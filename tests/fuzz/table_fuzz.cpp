@@ -1,6 +1,6 @@
 // Fuzzing of people's files. The first character says as what the rest is read, from 0 for
-// detections to 8 for labels of KITTI; a capital letter from A leaves bad rows out. A file is refused
-// with a message that fits a screen, or what comes out is finite and in the order of time.
+// detections to 8 for labels of KITTI; a capital letter from A leaves bad rows out. A file is
+// refused with a message that fits a screen, or what comes out is finite and in the order of time.
 
 #include <unistd.h>
 
@@ -108,8 +108,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const char first = static_cast<char>(data[0]);
   const ghtrack::ReadOptions options{.skip_bad_rows = first >= 'A'};
   const int kind = (first - (first >= 'A' ? 'A' : '0')) % 9;
-  const fs::path file =
-      folder.path / (kind == 6 ? "data.gpx" : kind == 7 ? "data.geojson" : "data.csv");
+  const fs::path file = folder.path / (kind == 6   ? "data.gpx"
+                                       : kind == 7 ? "data.geojson"
+                                                   : "data.csv");
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(data) + 1, static_cast<std::streamsize>(size - 1));
   try {

@@ -131,7 +131,8 @@ TEST(Document, ReadsRegularFilesOnly) {
   EXPECT_EQ(message("/nonexistent/scene.yaml"),
             "/nonexistent/scene.yaml: error: cannot be read: No such file or directory");
   EXPECT_EQ(message("/tmp"), "/tmp: error: is a folder, not a file");
-  EXPECT_EQ(message("/dev/zero"), "/dev/zero: error: is not a regular file; what comes through a pipe is read with '-'");
+  EXPECT_EQ(message("/dev/zero"),
+            "/dev/zero: error: is not a regular file; what comes through a pipe is read with '-'");
 }
 
 }  // namespace

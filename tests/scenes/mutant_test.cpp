@@ -38,12 +38,12 @@ std::vector<Span> numbers_of(const std::string& text) {
       std::size_t last = i;
       while (last < stop && is_part_of_a_word(line[last])) ++last;
       const std::string word = line.substr(i, last - i);
-      const bool is_number =
-          !word.empty() && word.find_first_not_of("0123456789.-") == std::string::npos &&
-          word.find_first_of("0123456789") != std::string::npos;
+      const bool is_number = !word.empty() &&
+                             word.find_first_not_of("0123456789.-") == std::string::npos &&
+                             word.find_first_of("0123456789") != std::string::npos;
       const std::size_t before = i == 0 ? std::string::npos : line.find_last_not_of(' ', i - 1);
-      const bool begins_a_value =
-          before != std::string::npos && std::string("[{,:").find(line[before]) != std::string::npos;
+      const bool begins_a_value = before != std::string::npos &&
+                                  std::string("[{,:").find(line[before]) != std::string::npos;
       if (is_number && begins_a_value && !quoted) numbers.push_back({begin + i, word.size()});
       i = std::max(last, i + 1);
     }
@@ -66,7 +66,8 @@ bool is_refused(const std::string& text) {
 // refused, in every scene that ships.
 TEST(Mutant, OfAShippedSceneWithAnImpossibleNumberIsRefused) {
   std::size_t mutants = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(GHTRACK_SOURCE_DIR) / "scenes")) {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(GHTRACK_SOURCE_DIR) / "scenes")) {
     if (entry.path().extension() != ".yaml") continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};

@@ -17,8 +17,7 @@ class RecordingFile : public ::testing::Test {
  protected:
   Scene read(const std::string& table, const std::string& id = {}) const {
     folder_.write("walk.csv", table);
-    const std::string recording =
-        "{file: walk.csv" + (id.empty() ? "" : ", id: " + id) + "}";
+    const std::string recording = "{file: walk.csv" + (id.empty() ? "" : ", id: " + id) + "}";
     return read_scene_text("name: demo\ntargets: [{name: a, recording: " + recording +
                                "}]\nsensors: [{name: camera}]\n",
                            (folder_.path() / "scene.yaml").string());

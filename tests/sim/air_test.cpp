@@ -104,8 +104,8 @@ Wind carrying(const Vec2& mean, std::uint64_t seed) {
   return Wind(config, 0.0, seed);
 }
 
-// Derived: Taylor's hypothesis: what is here now is at r + U t after the time t, whatever else moves;
-// so an observer who drifts with the mean wind feels the same gust all the time.
+// Derived: Taylor's hypothesis: what is here now is at r + U t after the time t, whatever else
+// moves; so an observer who drifts with the mean wind feels the same gust all the time.
 TEST(CarriedTurbulence, IsFrozenIntoTheMeanWind) {
   const Vec2 mean(8.0, 6.0);
   const Wind wind = carrying(mean, 3);
@@ -162,8 +162,8 @@ TEST(CarriedTurbulence, HasDrydensCorrelationsInTimeAndAlongTheWind) {
   expect(correlation(Vec2(8.0, 0.0), 0.8), 0.0);
 }
 
-// Property: across the wind each component has the reach of its own length scale: at 20 m, twice L_w
-// and a third of L_u, the vertical gusts are strangers and the horizontal ones are not.
+// Property: across the wind each component has the reach of its own length scale: at 20 m, twice
+// L_w and a third of L_u, the vertical gusts are strangers and the horizontal ones are not.
 TEST(CarriedTurbulence, HasItsOwnScaleForEachComponent) {
   const Correlation found = correlation(Vec2(0.0, 20.0), 0.0);
   EXPECT_NEAR(found.across, 0.0, kBound);

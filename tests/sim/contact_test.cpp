@@ -51,8 +51,8 @@ TEST(Contact, TurnsObliqueHitsByTheClosedForm) {
   }
 }
 
-// Derived: the same for a blow that only just grazes at 100 and 1000 m/s, closest at the very end of
-// a step.
+// Derived: the same for a blow that only just grazes at 100 and 1000 m/s, closest at the very end
+// of a step.
 TEST(Contact, FollowsFastGrazingBlows) {
   for (const double speed : {100.0, 1000.0}) {
     const double offset = 0.999 * 0.2;
@@ -117,8 +117,8 @@ TEST(Contact, HandsOnTheVelocityThroughACradle) {
 }
 
 // Derived: a ball that hits two equal ones in the middle, all three touching as an equilateral
-// triangle, gives each 2√3/5 of its speed, 30° to either side, and comes back with a fifth: momentum
-// and energy, by symmetry.
+// triangle, gives each 2√3/5 of its speed, 30° to either side, and comes back with a fifth:
+// momentum and energy, by symmetry.
 TEST(Contact, PartsTwoBallsThatItHitsInTheMiddle) {
   const double root = std::sqrt(3.0);
   World world(in_empty_space({target_of(billiard_ball(Vec2(-1.0, 0.0), Vec2(5.0, 0.0)), "a"),
@@ -152,8 +152,8 @@ TEST(Contact, ThrowsBackFromTheMiddleOfAValley) {
   }
 }
 
-// Derived: a smooth ball in a valley of slope θ comes to rest: whenever it changes sides more slowly
-// than bodies bounce, its speed falls to the part |cos 2θ|, and the time between with it.
+// Derived: a smooth ball in a valley of slope θ comes to rest: whenever it changes sides more
+// slowly than bodies bounce, its speed falls to the part |cos 2θ|, and the time between with it.
 TEST(Contact, EndsToAndFroInTheMiddleOfAValley) {
   for (const double slope : {0.3, 1.0, 1.7, 3.0}) {
     ThrownBall ball = billiard_ball(Vec2(0.0, 2.0), Vec2::Zero());
@@ -269,15 +269,15 @@ TEST(Contact, HitsTheTopOfABoxBesideItsCorner) {
   }
 }
 
-// Derived: friction draws a sliding ball into the wedge between another and a slope, so that slowing
-// it down takes more and more force: the one answer of Coulomb's law is that both touches stick at
-// once. It takes energy.
+// Derived: friction draws a sliding ball into the wedge between another and a slope, so that
+// slowing it down takes more and more force: the one answer of Coulomb's law is that both touches
+// stick at once. It takes energy.
 TEST(Contact, JamsWhatFrictionDrawsIntoAWedge) {
   std::vector<Pushed> bodies{{Vec2(0.838217, 0.744851), -16.96502, 0.3131753, 43.09001, 0.1043861},
                              {Vec2(0.610038, 0.268663), -20.46229, 22.09399, 31214.44, 0.03257589}};
   std::vector<Touch> touches(2);
-  touches[0] = {.one = 0, .other = 1, .normal = Vec2(-0.9139834, 0.4057516).normalized(),
-                .friction = 0.408};
+  touches[0] = {
+      .one = 0, .other = 1, .normal = Vec2(-0.9139834, 0.4057516).normalized(), .friction = 0.408};
   touches[1] = {.one = 1, .normal = Vec2(-0.4030478, 0.9151789).normalized(), .friction = 0.662};
   const auto energy = [&bodies] {
     double sum = 0.0;
@@ -292,7 +292,8 @@ TEST(Contact, JamsWhatFrictionDrawsIntoAWedge) {
   EXPECT_LT(energy(), begun);
   for (const Touch& touch : touches) {
     const Pushed& one = bodies[static_cast<std::size_t>(touch.one)];
-    const Pushed other = touch.other >= 0 ? bodies[static_cast<std::size_t>(touch.other)] : Pushed{};
+    const Pushed other =
+        touch.other >= 0 ? bodies[static_cast<std::size_t>(touch.other)] : Pushed{};
     EXPECT_NEAR(touch.normal.dot(one.rate - other.rate), 0.0, 1e-9);
     EXPECT_NEAR(tangent_to(touch.normal).dot(one.rate - other.rate) + one.radius * one.spin_rate +
                     other.radius * other.spin_rate,
@@ -302,8 +303,8 @@ TEST(Contact, JamsWhatFrictionDrawsIntoAWedge) {
   }
 }
 
-// Derived: a smooth elastic ball that meets the end of a wall, by the offset b from its centre's path,
-// turns by 180° − 2 asin(b / r), though it is closest at the very end of a step.
+// Derived: a smooth elastic ball that meets the end of a wall, by the offset b from its centre's
+// path, turns by 180° − 2 asin(b / r), though it is closest at the very end of a step.
 TEST(Contact, GrazesTheEndOfAWallAtTheEndOfAStep) {
   for (const double offset : {0.05, 0.0999, 0.09999999}) {
     for (const double speed : {1.0, 10.0, 100.0}) {
@@ -446,7 +447,8 @@ TEST(Contact, FindsRoomForWhoAppears) {
     target.appears = appears;
     return target;
   };
-  WorldConfig between = world_of({ball(-0.15, 0.1, 0.0), ball(0.15, 0.1, 0.0), ball(0.0, 0.1, 0.5)});
+  WorldConfig between =
+      world_of({ball(-0.15, 0.1, 0.0), ball(0.15, 0.1, 0.0), ball(0.0, 0.1, 0.5)});
   between.environment.ground = Ground{};
   WorldConfig slot = world_of({ball(0.03, 0.5, 0.5)});
   for (const double x : {-0.08, 0.08}) {
@@ -488,15 +490,15 @@ TEST(Contact, FindsRoomForWhoAppears) {
   }
 }
 
-// Property: a pyramid of rough balls that is dropped by a little comes to rest, exactly: what hardly
-// slips sticks.
+// Property: a pyramid of rough balls that is dropped by a little comes to rest, exactly: what
+// hardly slips sticks.
 TEST(Contact, LetsAPyramidComeToRest) {
   for (const int rows : {2, 3}) {
     std::vector<Target> targets;
     for (int row = 0; row < rows; ++row) {
       for (int i = 0; i < rows - row; ++i) {
-        ThrownBall ball =
-            billiard_ball(Vec2(0.2 * i + 0.1 * row, 0.11 + row * 0.2 * std::sqrt(0.75)), Vec2::Zero());
+        ThrownBall ball = billiard_ball(
+            Vec2(0.2 * i + 0.1 * row, 0.11 + row * 0.2 * std::sqrt(0.75)), Vec2::Zero());
         ball.restitution = 0.2;
         ball.friction = 0.6;
         ball.rolling = 0.01;

@@ -30,19 +30,21 @@ int main(int argc, char** argv) {
       missed += run.collisions_missed;
       const bool rests = run.most_unrest < ghtrack::kAtRest && run.afloat == 0;
       if (gained < 1e-7 && run.lowest > -1e-6 && rests) continue;
-      std::printf("seed %ju: gained %.2e of its energy, lowest gap %.2e m, missed %ld, unrest %.2e "
-                  "m/s², %d afloat\n",
-                  static_cast<std::uintmax_t>(seed), gained, run.lowest, run.collisions_missed,
-                  run.most_unrest, run.afloat);
+      std::printf(
+          "seed %ju: gained %.2e of its energy, lowest gap %.2e m, missed %ld, unrest %.2e "
+          "m/s², %d afloat\n",
+          static_cast<std::uintmax_t>(seed), gained, run.lowest, run.collisions_missed,
+          run.most_unrest, run.afloat);
       std::fflush(stdout);
     } catch (const std::exception& error) {
       std::printf("seed %ju: %s\n", static_cast<std::uintmax_t>(seed), error.what());
     }
     ++failures;
   }
-  std::printf("%ju worlds in %.1f s (slowest %.2f s), %ju failures, %ld collisions missed; most "
-              "gained %.2e of the energy, lowest gap %.2e m\n",
-              static_cast<std::uintmax_t>(count), total, slowest,
-              static_cast<std::uintmax_t>(failures), missed, most, lowest);
+  std::printf(
+      "%ju worlds in %.1f s (slowest %.2f s), %ju failures, %ld collisions missed; most "
+      "gained %.2e of the energy, lowest gap %.2e m\n",
+      static_cast<std::uintmax_t>(count), total, slowest, static_cast<std::uintmax_t>(failures),
+      missed, most, lowest);
   return failures == 0 ? 0 : 1;
 }

@@ -15,7 +15,8 @@ ThrownBall hard_ball(const Vec2& position, const Vec2& velocity) {
   return ball;
 }
 
-// Derived: two equal balls that meet at v exchange m (1 + e) v / 2, which is told of one of them; a wall gives m (1 + e) v to a ball that strikes it.
+// Derived: two equal balls that meet at v exchange m (1 + e) v / 2, which is told of one of them; a
+// wall gives m (1 + e) v to a ball that strikes it.
 TEST(Events, SayWhoStruckWhatAndHowHard) {
   WorldConfig config = world_of({target_of(hard_ball(Vec2(-1.0, 0.0), Vec2(3.0, 0.0)), "cue"),
                                  target_of(hard_ball(Vec2(0.2, 0.0), Vec2::Zero()), "red"),

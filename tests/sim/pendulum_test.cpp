@@ -65,9 +65,8 @@ TEST(Pendulum, DampsSmallSwings) {
   World world(world_of({target_of(pendulum)}), 1);
   const double start = state_at(world, 0.0).position.x();
   for (const double t : {0.7, 3.0, 8.0}) {
-    const double wanted =
-        start * std::exp(-0.2 * t) *
-        (std::cos(frequency * t) + 0.2 / frequency * std::sin(frequency * t));
+    const double wanted = start * std::exp(-0.2 * t) *
+                          (std::cos(frequency * t) + 0.2 / frequency * std::sin(frequency * t));
     EXPECT_NEAR(state_at(world, t).position.x(), wanted, 1e-7 * start);
   }
 }

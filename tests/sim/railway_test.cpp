@@ -28,9 +28,9 @@ Train turned_round(Train train, const Vec2& end, double heading_deg) {
   return train;
 }
 
-// Derived: two targets on one track couple as cars `ahead` do: with m₁ v₁ + m₂ v₂ = (m₁ + m₂) v, and
-// their springs take ½ (v₁ − v₂)² m₁ m₂ / (m₁ + m₂). The front of the one, at 15 m, meets the rear of
-// the other, at 55 m, after 40 m / (v₁ − v₂).
+// Derived: two targets on one track couple as cars `ahead` do: with m₁ v₁ + m₂ v₂ = (m₁ + m₂) v,
+// and their springs take ½ (v₁ − v₂)² m₁ m₂ / (m₁ + m₂). The front of the one, at 15 m, meets the
+// rear of the other, at 55 m, after 40 m / (v₁ − v₂).
 TEST(Railway, CouplesTargetsByMomentum) {
   WorldConfig config = world_of({target_of(free_cars(2, 100e3, 10.0, 3.0), "one"),
                                  target_of(free_cars(3, 60e3, 80.0, 1.0), "other")});
@@ -51,9 +51,10 @@ TEST(Railway, CouplesTargetsByMomentum) {
   EXPECT_LT((world.events()[0].impulse - Vec2(-100e3 * (3.0 - common), 0.0)).norm(), 1e-2);
 }
 
-// Derived: without damping and couplings, buffers give all back: v₁' = ((m₁ − m₂) v₁ + 2 m₂ v₂) / (m₁
-// + m₂), after a contact of π √(μ/k) with μ = m₁ m₂/(m₁ + m₂); the two are driven at each other, each
-// on the track as seen from its own end.
+// Derived: without damping and couplings, buffers give all back: v₁' = ((m₁ − m₂) v₁ + 2 m₂ v₂) /
+// (m₁
+// + m₂), after a contact of π √(μ/k) with μ = m₁ m₂/(m₁ + m₂); the two are driven at each other,
+// each on the track as seen from its own end.
 TEST(Railway, BuffersElasticallyHeadOn) {
   Train one = free_cars(1, 60e3, 0.0, 1.5);
   one.couplers = Couplers{1e7, 0.0, 0.0};
@@ -75,12 +76,11 @@ TEST(Railway, BuffersElasticallyHeadOn) {
   EXPECT_NEAR(after.objects[1].velocity.x(), (120e3 * 1.5 + 40e3 * 0.5) / 80e3, 1e-5);
 }
 
-// Derived: on a curve, too, whichever end the track is described from, momentum along it decides, and
-// cars keep their distance along it.
+// Derived: on a curve, too, whichever end the track is described from, momentum along it decides,
+// and cars keep their distance along it.
 TEST(Railway, MeetsOnACurveDescribedFromEitherEnd) {
   Train one = free_cars(1, 100e3, 60.0, 2.0);
-  one.track = {Straight{100.0}, Curve{150.0, 60.0, {}, 40.0},
-               Straight{100.0}};
+  one.track = {Straight{100.0}, Curve{150.0, 60.0, {}, 40.0}, Straight{100.0}};
   const RailLine line(one.track, one.position, 0.0);
   const TrackPoint end = line.at(line.length());
   for (const bool is_turned : {false, true}) {
@@ -133,7 +133,8 @@ TEST(Railway, KeepsMomentumAndOrder) {
     World world(config, seed);
     const auto momentum = [&](const TruthSnapshot& truth) {
       double sum = 0.0;
-      for (std::size_t i = 0; i < masses.size(); ++i) sum += masses[i] * truth.objects[i].velocity.x();
+      for (std::size_t i = 0; i < masses.size(); ++i)
+        sum += masses[i] * truth.objects[i].velocity.x();
       return sum;
     };
     const TruthSnapshot begun = world.sample(0.0);
@@ -181,9 +182,9 @@ std::vector<WorldEvent> passages(const WorldConfig& config, double duration) {
   return found;
 }
 
-// Derived: two trains whose tracks cross at (200, 0) pass through each other when both are there: the
-// fronts come to it after 195 m / 20 m/s = 9.75 s. With the one delayed by its length and more, or on
-// tracks side by side, nobody does.
+// Derived: two trains whose tracks cross at (200, 0) pass through each other when both are there:
+// the fronts come to it after 195 m / 20 m/s = 9.75 s. With the one delayed by its length and more,
+// or on tracks side by side, nobody does.
 TEST(Railway, TellsOfTrainsWhoseTracksCross) {
   const Train one = free_cars(2, 100e3, 0.0, 20.0);
   Train crossing = one;
@@ -246,7 +247,8 @@ TEST(Railway, FindsWhichLinesAreOne) {
   EXPECT_FALSE(place_on(RailLine({Straight{90.0}}, ahead.position, ahead.heading), line));
   EXPECT_FALSE(place_on(RailLine(bend, Vec2(1e4, -3e3 + 0.01), 0.3), line));
   const RailLine straight({}, Vec2(0.0, 1.0), 0.0);
-  const auto against = place_on(RailLine({Straight{9.0}}, Vec2(70.0, 1.0), portable::kPi), straight);
+  const auto against =
+      place_on(RailLine({Straight{9.0}}, Vec2(70.0, 1.0), portable::kPi), straight);
   ASSERT_TRUE(against);
   EXPECT_NEAR(against->begin, 70.0, 1e-9);
   EXPECT_EQ(against->direction, -1.0);

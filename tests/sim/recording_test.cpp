@@ -9,8 +9,8 @@
 namespace ghtrack {
 namespace {
 
-// Derived: the spline through four or more places of a cubic is the cubic, whatever their distances;
-// through three of a parabola the parabola.
+// Derived: the spline through four or more places of a cubic is the cubic, whatever their
+// distances; through three of a parabola the parabola.
 TEST(Recording, IsExactForCubics) {
   Recording recording;
   for (const double t : {2.0, 2.5, 4.0, 4.2, 7.0}) {
@@ -20,8 +20,9 @@ TEST(Recording, IsExactForCubics) {
   World world(world_of({target_of(recording)}), 1);
   for (const double s : {0.0, 0.3, 1.1, 2.1, 4.9}) {
     const TruthState state = state_at(world, s);
-    EXPECT_LT((state.position - Vec2(1.0 + 2.0 * s - 0.5 * s * s + 0.1 * s * s * s, -3.0 * s)).norm(),
-              1e-12);
+    EXPECT_LT(
+        (state.position - Vec2(1.0 + 2.0 * s - 0.5 * s * s + 0.1 * s * s * s, -3.0 * s)).norm(),
+        1e-12);
     EXPECT_LT((state.velocity - Vec2(2.0 - s + 0.3 * s * s, -3.0)).norm(), 1e-12);
     EXPECT_LT((state.acceleration - Vec2(-1.0 + 0.6 * s, 0.0)).norm(), 1e-12);
   }

@@ -99,15 +99,17 @@ TEST(Route, SaysWhatCannotBeDriven) {
   corner.turn_radius = 5.0;
   EXPECT_EQ(flaw_of(corner), "");
   corner.legs[0].turn_radius = 12.0;
-  EXPECT_EQ(flaw_of(corner), "legs[0].turn_radius: a turn of 12.0 m into the next leg takes 12.0 m "
-                             "of both; there are 10.0");
+  EXPECT_EQ(flaw_of(corner),
+            "legs[0].turn_radius: a turn of 12.0 m into the next leg takes 12.0 m "
+            "of both; there are 10.0");
   Route back = driving(1.0, {leg(GoTo{Vec2(10.0, 0.0)}), leg(GoTo{Vec2(0.0, 0.0)})});
   EXPECT_EQ(flaw_of(back).substr(0, 20), "legs[0].turn_radius:");
   back.legs[0].turn_radius = 0.0;
   EXPECT_EQ(flaw_of(back), "");
   Route braking = driving(10.0, {leg(Straight{20.0}), leg(Wait{1.0})});
-  EXPECT_EQ(flaw_of(braking), "legs[0]: is too short to change from 10.0 to 10.0 and to 0.0 m/s: "
-                              "50.0 m are needed, 20.0 m are there");
+  EXPECT_EQ(flaw_of(braking),
+            "legs[0]: is too short to change from 10.0 to 10.0 and to 0.0 m/s: "
+            "50.0 m are needed, 20.0 m are there");
   EXPECT_EQ(flaw_of(driving(0.0, {leg(Straight{20.0})})).substr(0, 14), "legs[0].speed:");
   EXPECT_EQ(flaw_of(driving(0.0, {leg(Wait{5.0}), leg(Straight{20.0}, 2.0)})), "");
   EXPECT_EQ(flaw_of(driving(5.0, {leg(Turn{.radius = 9.0}), leg(Wait{5.0})})).substr(0, 8),
@@ -115,7 +117,8 @@ TEST(Route, SaysWhatCannotBeDriven) {
   EXPECT_EQ(flaw_of(driving(5.0, {leg(GoTo{Vec2::Zero()})})).substr(0, 11), "legs[0].to:");
 }
 
-Route straying(std::variant<NoProcessNoise, WhiteAcceleration, SingerAcceleration, NoisyTurn> model) {
+Route straying(
+    std::variant<NoProcessNoise, WhiteAcceleration, SingerAcceleration, NoisyTurn> model) {
   Route route = driving(30.0, {});
   route.process_noise.model = model;
   return route;
@@ -153,8 +156,8 @@ Moments moments_of(const Route& route, double time) {
 /// Five standard errors of a normal variable's sample variance, as a fraction of it.
 const double kMomentBound = 5.0 * std::sqrt(2.0 / kRuns);
 
-// Derived: white acceleration of density q leaves q [T³/3 T²/2; T²/2 T] after the time T (Bar-Shalom,
-// Li & Kirubarajan 2001, equation 6.2.2-12).
+// Derived: white acceleration of density q leaves q [T³/3 T²/2; T²/2 T] after the time T
+// (Bar-Shalom, Li & Kirubarajan 2001, equation 6.2.2-12).
 TEST(ProcessNoise, HasTheCovarianceOfNearlyConstantVelocity) {
   constexpr double kTime = 1.5;
   const Moments moments = moments_of(straying(WhiteAcceleration{2.0}), kTime);
@@ -174,8 +177,8 @@ TEST(ProcessNoise, HasTheCovarianceOfSingersModel) {
   EXPECT_NEAR(moments.vv / velocity, 1.0, kMomentBound);
 }
 
-// Derived: a turn rate that is a random walk of density q leaves q T³/3 to the heading; a speed that
-// is one leaves q T.
+// Derived: a turn rate that is a random walk of density q leaves q T³/3 to the heading; a speed
+// that is one leaves q T.
 TEST(ProcessNoise, HasTheCovarianceOfANoisyTurn) {
   constexpr double kTime = 2.0;
   const Moments moments = moments_of(straying(NoisyTurn{2.0, 0.5}), kTime);

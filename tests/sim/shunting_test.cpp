@@ -76,12 +76,13 @@ TEST(Shunting, EndsAtABufferStop) {
   EXPECT_NEAR(state_at(world, 10.0 + portable::kPi * 0.1 + 0.01).velocity.x(), -2.0, 1e-5);
 }
 
-// Derived: two trains that are driven towards each other on one track for 20 s close the gap between
-// them by ½ (a₁ + a₂) t², the rest at the speed that they have, and couple: momentum.
+// Derived: two trains that are driven towards each other on one track for 20 s close the gap
+// between them by ½ (a₁ + a₂) t², the rest at the speed that they have, and couple: momentum.
 TEST(Shunting, MeetsAnotherDrivenTrain) {
   Train train = free_train(2, 100e3, 0.0, {phase_at(0.0, Force{20e3})});
   train.couplers->damping = 2e5;
-  CarsAhead other{210.0, 2, 25e3, 0.0, true, {phase_at(0.0, Force{-20e3}), phase_at(20.0, Coast{})}};
+  CarsAhead other{210.0, 2,    25e3,
+                  0.0,   true, {phase_at(0.0, Force{-20e3}), phase_at(20.0, Coast{})}};
   train.ahead = {other};
   train.drive.push_back(phase_at(20.0, Coast{}));
   WorldConfig config = world_of({target_of(train)});
@@ -173,7 +174,8 @@ TEST(Shunting, SaysThatAStopWasRunPast) {
 }
 
 // Derived: of a rigid train of n cars those brake that the pipe has reached, after 0, L/c, 2L/c, …:
-// v(t) = v − (b/n) Σ B(t − i L/c), with B(s) = s²/2r while the brake builds up and s − r/2 then; with the locomotive's brake alone b m₁/m.
+// v(t) = v − (b/n) Σ B(t − i L/c), with B(s) = s²/2r while the brake builds up and s − r/2 then;
+// with the locomotive's brake alone b m₁/m.
 TEST(Shunting, BrakesCarByCar) {
   Train train = free_train(5, 100e3, 20.0, {phase_at(1.0, Brake{})});
   train.couplers.reset();
@@ -215,7 +217,8 @@ TEST(Shunting, StopsAtTheLimitOfAdhesion) {
       const double p = 7.5 + 0.161 * 44.0;
       const double linear = (44.0 - 3.6 * p / q) / q;
       const double way = (1.8 / q * speed * speed + linear * speed -
-                          linear * p / q * portable::log(1.0 + q * speed / p)) / c;
+                          linear * p / q * portable::log(1.0 + q * speed / p)) /
+                         c;
       const TruthState stopped = state_at(world, 200.0);
       EXPECT_EQ(stopped.velocity.x(), 0.0);
       EXPECT_NEAR(stopped.position.x(), way, 1e-5 * way) << adhesion << ' ' << speed;
@@ -236,8 +239,8 @@ std::vector<double> run_in_by_hand(double until) {
       if (i == 0) continue;
       const double stretch = place[i - 1] - place[i] - 10.0;
       if (std::abs(stretch) <= 0.02) continue;
-      const double pull = 1e7 * (stretch - std::copysign(0.02, stretch)) +
-                          1e5 * (speed[i - 1] - speed[i]);
+      const double pull =
+          1e7 * (stretch - std::copysign(0.02, stretch)) + 1e5 * (speed[i - 1] - speed[i]);
       rate[i - 1] -= pull / 25e3;
       rate[i] += pull / 25e3;
     }
@@ -269,18 +272,16 @@ TEST(Shunting, RunsInWhenTheHeadBrakesFirst) {
   double shortest = 30.0;
   for (int i = 0; i < 100; ++i) {
     const TruthSnapshot truth = again.sample(0.02 * i);
-    shortest = std::min(shortest,
-                        truth.objects[0].position.x() - truth.objects[3].position.x());
+    shortest = std::min(shortest, truth.objects[0].position.x() - truth.objects[3].position.x());
   }
   EXPECT_LT(shortest, 30.0 - 3.0 * 0.02);
 }
 
-// Property: the driver keeps the limits, from the place where they begin until the last car has left,
-// and takes no longer than he must: the speed before is that of the braking he plans with.
+// Property: the driver keeps the limits, from the place where they begin until the last car has
+// left, and takes no longer than he must: the speed before is that of the braking he plans with.
 TEST(Shunting, KeepsSpeedLimits) {
-  for (const DriveCommand& command :
-       {DriveCommand(TargetSpeed{30.0}), DriveCommand(Traction{1.0}),
-        DriveCommand(Accelerate{0.4})}) {
+  for (const DriveCommand& command : {DriveCommand(TargetSpeed{30.0}), DriveCommand(Traction{1.0}),
+                                      DriveCommand(Accelerate{0.4})}) {
     Train train = free_train(5, 200e3, 30.0, {phase_at(0.0, command)});
     train.couplers.reset();
     train.track_every_car = false;

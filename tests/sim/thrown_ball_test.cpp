@@ -7,8 +7,8 @@
 
 #include "sim/portable_math.hpp"
 #include "sim/world.hpp"
-#include "tests/sim/scenario.hpp"
 #include "tests/effort.hpp"
+#include "tests/sim/scenario.hpp"
 
 namespace ghtrack {
 namespace {
@@ -237,8 +237,8 @@ TEST(ThrownBall, SurvivesCornersAndEnds) {
   }
 }
 
-// Derived: it is the air that takes the spin: in air of half the density half as fast, in a vacuum not
-// at all.
+// Derived: it is the air that takes the spin: in air of half the density half as fast, in a vacuum
+// not at all.
 TEST(ThrownBall, LosesItsSpinToTheAir) {
   const auto left_of_spin = [](double density) {
     ThrownBall ball = preset("baseball");

@@ -258,7 +258,8 @@ TEST(TrackerProperty, StaysFiniteUnderHostileScans) {
   std::vector<TrackerConfig> configs = all_kinds();
   configs.push_back(three_filters());
   for (const FilterConfig& filter :
-       {FilterConfig(GhConfig{}), FilterConfig(GhkConfig{.design = gain_design::TrackingIndex<2>{}}),
+       {FilterConfig(GhConfig{}),
+        FilterConfig(GhkConfig{.design = gain_design::TrackingIndex<2>{}}),
         FilterConfig(KalmanCvConfig{}), FilterConfig(KalmanCaConfig{}), FilterConfig(EkfConfig{}),
         FilterConfig(UkfConfig{}), FilterConfig(ImmConfig{})}) {
     configs.emplace_back().filters["default"] = filter;

@@ -125,8 +125,8 @@ TEST(Tracker, MissesOutsideTheFieldOfViewDoNotCount) {
   EXPECT_TRUE(state.tracks.empty());
 }
 
-// Property: a track that goes below the floor ends as if it were in view; one that goes as far aside
-// lives on, and so does one that is still above the floor.
+// Property: a track that goes below the floor ends as if it were in view; one that goes as far
+// aside lives on, and so does one that is still above the floor.
 TEST(Tracker, NothingHidesBelowTheFloor) {
   TrackerConfig counts, existence, hypotheses;
   counts.life_cycle = LifeCycle::kCounts;

@@ -34,8 +34,8 @@ TrackerDesign design(const FilterConfig& filter, Association association) {
   return {config,
           {{.period = 1.0,
             .sigma = kSigma,
-            .field_of_view = Eigen::AlignedBox2d(Eigen::Vector2d(0.0, 0.0),
-                                                 Eigen::Vector2d(1000.0, 1000.0)),
+            .field_of_view =
+                Eigen::AlignedBox2d(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1000.0, 1000.0)),
             .detection_probability = kSeen,
             .clutter = 10.0}}};
 }

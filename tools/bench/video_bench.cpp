@@ -17,10 +17,10 @@
 #include "scenes/schema/reader.hpp"
 #include "tools/film/frame_maker.hpp"
 #include "tools/film/scene_drawing.hpp"
-#include "tools/run/run.hpp"
 #include "tools/render/encoder.hpp"
 #include "tools/render/picture.hpp"
 #include "tools/render/video_file.hpp"
+#include "tools/run/run.hpp"
 
 namespace ghtrack {
 namespace {
@@ -60,8 +60,7 @@ void encode(const std::vector<cv::Mat>& frames, const render::VideoOptions& opti
 void make_video(const WorldScene& scene, const render::VideoOptions& options) {
   World world = make_world(scene);
   const auto video = render::open_video_file(options, drawing_of(scene, world));
-  film_scene(scene, options,
-             [&](const render::VideoFrame& frame) { video->add_frame(frame); });
+  film_scene(scene, options, [&](const render::VideoFrame& frame) { video->add_frame(frame); });
   video->finish();
 }
 
@@ -116,8 +115,8 @@ int bench(const std::string& seconds) {
              whole[0].wall / encoding.wall);
   fmt::print("of processors: encoding {:.2f} s, whole video {:.2f} s, ratio {:.2f}\n", encoding.cpu,
              whole[0].cpu, whole[0].cpu / encoding.cpu);
-  fmt::print("two at a time: {:.2f} s, {:.2f} times as fast, {:.2f} s of processors\n", whole[1].wall,
-             whole[0].wall / whole[1].wall, whole[1].cpu);
+  fmt::print("two at a time: {:.2f} s, {:.2f} times as fast, {:.2f} s of processors\n",
+             whole[1].wall, whole[0].wall / whole[1].wall, whole[1].cpu);
   return 0;
 }
 

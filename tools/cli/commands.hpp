@@ -25,9 +25,9 @@ struct SceneOptions {
 
 /// What a video shows, and how large it is.
 struct VideoLook {
-  std::string size;   // WxH; empty: what the scene says
-  std::string theme;  // dark or light; empty: dark
-  std::string trail;  // [s], or "whole"; empty: as the scene says
+  std::string size;            // WxH; empty: what the scene says
+  std::string theme;           // dark or light; empty: dark
+  std::string trail;           // [s], or "whole"; empty: as the scene says
   std::optional<double> text;  // how much larger letters are than usual
   std::vector<std::string> show, hide;
 };
@@ -37,11 +37,11 @@ struct RunOptions {
   std::string output;         // folder; empty: out/<scene name>
   std::optional<bool> video;  // overrides what the scene says
   VideoLook look;
-  bool compare = false;       // the video shows the filters under `compare`, on the same run
-  bool smooth = false;        // tracks.csv says, too, what is known afterwards
-  bool page = false;          // also write page.html
-  bool matches = false;       // write matches.csv
-  bool plots = false;         // write plots.svg
+  bool compare = false;  // the video shows the filters under `compare`, on the same run
+  bool smooth = false;   // tracks.csv says, too, what is known afterwards
+  bool page = false;     // also write page.html
+  bool matches = false;  // write matches.csv
+  bool plots = false;    // write plots.svg
 
   /// What chose one of the scenes.
   SceneOptions scene_of(std::size_t index) const {
@@ -58,7 +58,7 @@ struct VideoCommandOptions {
   std::optional<double> fps, slow, from, to;
   std::string encoder = "auto";
   std::optional<int> jobs;  // threads; as many as the machine has
-  std::string poster;  // PNG file; empty: none
+  std::string poster;       // PNG file; empty: none
   bool compare = false;
 };
 
@@ -99,7 +99,7 @@ struct DataOptions {
 };
 
 struct FilterCommandOptions {
-  std::string file = "-";  // series, or - for standard input
+  std::string file = "-";     // series, or - for standard input
   std::string filter = "gh";  // a name, or a configuration as in a scene
   std::optional<double> g, h, k, gamma, theta, q, r, p0, u;
   std::string x0;         // comma-separated, one per axis; empty: starts at the first measurement
@@ -141,8 +141,8 @@ struct FilmOptions {
   std::vector<std::string> homography;  // four times X,Y=U,V; none: data are pixels
   std::optional<double> start;          // time of the data at the first picture [s]
   // What the data say of their pictures:
-  std::optional<double> frame_rate;     // [Hz]
-  std::optional<int> width, height;     // [px]
+  std::optional<double> frame_rate;  // [Hz]
+  std::optional<int> width, height;  // [px]
 };
 
 struct TrackOptions {
@@ -150,14 +150,14 @@ struct TrackOptions {
   DataOptions data;
   bool degrees = false;  // also write latitude and longitude
   std::string format = "auto";
-  std::string config;             // YAML file of a tracker; empty: the defaults
+  std::string config;  // YAML file of a tracker; empty: the defaults
   std::optional<double> noise, detection_probability, clutter;  // instead of the configuration's
-  std::string life_cycle;         // the same: existence or counts; empty: not said
-  bool online = false;            // learn from what has been seen so far only
-  std::string save_config;        // where to write what was used; empty: nowhere
-  std::string output;             // empty: standard output
-  bool plots = false;             // also draw them, beside the output
-  bool smooth = false;            // tracks say, too, what is known afterwards
+  std::string life_cycle;   // the same: existence or counts; empty: not said
+  bool online = false;      // learn from what has been seen so far only
+  std::string save_config;  // where to write what was used; empty: nowhere
+  std::string output;       // empty: standard output
+  bool plots = false;       // also draw them, beside the output
+  bool smooth = false;      // tracks say, too, what is known afterwards
   FilmOptions film;
   std::string evaluation_folder;  // for public evaluation kits; empty: none
   std::string benchmark = "MOT15", split = "train", tracker_name = "ghtrack";

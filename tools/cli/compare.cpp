@@ -109,8 +109,7 @@ Campaign with_tuned_filters(Campaign campaign, const fs::path& folder,
   ranks.wait_for_all(stop_if_interrupted);
   for (std::size_t i = 0; i < untuned.size(); ++i) {
     CompareConfig& compare = campaign.cells[untuned[i]].scene.compare;
-    compare.filters =
-        schema::read_configuration_file<CompareConfig>(files[i].string()).filters;
+    compare.filters = schema::read_configuration_file<CompareConfig>(files[i].string()).filters;
     compare.tuned.clear();
   }
   return campaign;

@@ -106,8 +106,7 @@ const std::map<std::string, Rule, std::less<>>& rules() {
         },
         {}}},
       {"polge-bhagavan",
-       {[](const Options& o) { return polge_bhagavan_gains(need(o.g, "--g", o.rule)); },
-        {"--g"}}},
+       {[](const Options& o) { return polge_bhagavan_gains(need(o.g, "--g", o.rule)); }, {"--g"}}},
   };
   return all;
 }
@@ -115,16 +114,23 @@ const std::map<std::string, Rule, std::less<>>& rules() {
 /// An option that the rule makes nothing of is a misunderstanding: `benedict-bordner --order 2`.
 void refuse_unused_options(const GainsCommandOptions& options, const Rule& rule) {
   const std::pair<std::string_view, bool> given[] = {
-      {"--g", options.g.has_value()},         {"--h", options.h.has_value()},
-      {"--k", options.k.has_value()},         {"--gamma", options.gamma.has_value()},
-      {"--theta", options.theta.has_value()}, {"--n", options.n.has_value()},
-      {"--order", options.order.has_value()}, {"--index", options.index.has_value()},
-      {"--noise", options.noise.has_value()}, {"--process-noise", options.process_noise.has_value()}};
+      {"--g", options.g.has_value()},
+      {"--h", options.h.has_value()},
+      {"--k", options.k.has_value()},
+      {"--gamma", options.gamma.has_value()},
+      {"--theta", options.theta.has_value()},
+      {"--n", options.n.has_value()},
+      {"--order", options.order.has_value()},
+      {"--index", options.index.has_value()},
+      {"--noise", options.noise.has_value()},
+      {"--process-noise", options.process_noise.has_value()}};
   for (const auto& [name, is_given] : given) {
-    const bool used = std::find(rule.options.begin(), rule.options.end(), name) != rule.options.end();
+    const bool used =
+        std::find(rule.options.begin(), rule.options.end(), name) != rule.options.end();
     if (!is_given || used) continue;
-    const std::string wanted =
-        rule.options.empty() ? "--accel, --sigma, --dt" : fmt::format("{}", fmt::join(rule.options, ", "));
+    const std::string wanted = rule.options.empty()
+                                   ? "--accel, --sigma, --dt"
+                                   : fmt::format("{}", fmt::join(rule.options, ", "));
     throw UsageError(fmt::format("gains {}: {} chooses nothing here; this rule takes {}",
                                  options.rule, name, wanted));
   }
@@ -174,10 +180,10 @@ VarianceReduction variances_of(const Gains& gains, const GainsCommandOptions& op
   variances.x = sigma[0] * sigma[0];
   variances.dx = sigma[1] * sigma[1];
   variances.ddx = sigma[2] * sigma[2];
-  variances.prediction = gains.order == 0   ? 1.0 / n
-                         : gains.order == 1 ? 2.0 * (2.0 * n + 1.0) / (n * (n - 1.0))
-                                            : 3.0 * (3.0 * n * n + 3.0 * n + 2.0) /
-                                                  (n * (n - 1.0) * (n - 2.0));
+  variances.prediction = gains.order == 0 ? 1.0 / n
+                         : gains.order == 1
+                             ? 2.0 * (2.0 * n + 1.0) / (n * (n - 1.0))
+                             : 3.0 * (3.0 * n * n + 3.0 * n + 2.0) / (n * (n - 1.0) * (n - 2.0));
   return variances;
 }
 

@@ -30,18 +30,19 @@ std::optional<Eigen::Vector2d> parse_pair(std::string_view text) {
 std::array<GroundPoint, 4> parse_ground_points(const std::vector<std::string>& texts) {
   std::array<GroundPoint, 4> points;
   if (texts.size() != points.size()) {
-    throw UsageError(fmt::format("--homography needs four points, X,Y=U,V each; there are {}",
-                                 texts.size()));
+    throw UsageError(
+        fmt::format("--homography needs four points, X,Y=U,V each; there are {}", texts.size()));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::string_view text = texts[i];
     const std::size_t equals = text.find('=');
     const auto ground = parse_pair(text.substr(0, equals));
-    const auto pixel = equals == std::string_view::npos ? std::nullopt
-                                                        : parse_pair(text.substr(equals + 1));
+    const auto pixel =
+        equals == std::string_view::npos ? std::nullopt : parse_pair(text.substr(equals + 1));
     if (!ground || !pixel) {
-      throw UsageError(fmt::format(
-          "--homography: '{}' is not X,Y=U,V: a place and the pixel that shows it", printable(text)));
+      throw UsageError(
+          fmt::format("--homography: '{}' is not X,Y=U,V: a place and the pixel that shows it",
+                      printable(text)));
     }
     points[i] = {*ground, *pixel};
   }
@@ -72,7 +73,8 @@ Eigen::Matrix3d homography(const std::array<GroundPoint, 4>& points) {
   Eigen::Matrix3d scaled;
   scaled << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1.0;
   Eigen::Matrix3d to_unit;
-  to_unit << 1.0 / unit, 0.0, -middle.x() / unit, 0.0, 1.0 / unit, -middle.y() / unit, 0.0, 0.0, 1.0;
+  to_unit << 1.0 / unit, 0.0, -middle.x() / unit, 0.0, 1.0 / unit, -middle.y() / unit, 0.0, 0.0,
+      1.0;
   return scaled * to_unit;
 }
 

@@ -12,8 +12,8 @@
 namespace ghtrack::cli {
 namespace {
 
-constexpr timespec kGrace = {.tv_sec = 0, .tv_nsec = 700'000'000};     // before the end by force
-constexpr timespec kTimeForOrder = {.tv_sec = 5, .tv_nsec = 0};        // once somebody puts in order
+constexpr timespec kGrace = {.tv_sec = 0, .tv_nsec = 700'000'000};  // before the end by force
+constexpr timespec kTimeForOrder = {.tv_sec = 5, .tv_nsec = 0};     // once somebody puts in order
 
 volatile std::sig_atomic_t last_signal = 0;
 timer_t last_call{};
@@ -24,8 +24,7 @@ bool has_last_call = false;
 void end_by_force(int signal) {
   constexpr std::string_view kFarewell = "ghtrack: interrupted\n";
   remove_all_scratch();
-  [[maybe_unused]] const ssize_t said =
-      ::write(STDERR_FILENO, kFarewell.data(), kFarewell.size());
+  [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, kFarewell.data(), kFarewell.size());
   ::_exit(128 + (last_signal != 0 ? static_cast<int>(last_signal) : signal));
 }
 

@@ -16,8 +16,7 @@ namespace ghtrack::cli {
 namespace {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands(
-      [](const CLI::App* command) { return !command->get_group().empty(); });
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
 std::vector<const CLI::Option*> options_of(const CLI::App& app) {
@@ -42,7 +41,6 @@ std::string replaced(std::string_view text, std::string_view characters, std::st
   }
   return result;
 }
-
 
 /// Text for roff: hyphens stay hyphens, and no line begins a request.
 std::string roff(std::string_view text) {
@@ -80,8 +78,8 @@ std::string roff_footer(const std::string& footer) {
 }
 
 std::string page_head(const std::string& name, const std::string& about) {
-  return fmt::format(".TH {} 1 \"\" \"ghtrack {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n",
-                     name, GHTRACK_VERSION, roff(name), roff(about));
+  return fmt::format(".TH {} 1 \"\" \"ghtrack {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n", name,
+                     GHTRACK_VERSION, roff(name), roff(about));
 }
 
 std::string command_page(const CLI::App& app, const CLI::App& command) {
@@ -104,7 +102,8 @@ std::string command_page(const CLI::App& app, const CLI::App& command) {
 
 std::string main_page(const CLI::App& app) {
   std::string page = page_head(app.get_name(), app.get_description());
-  page += fmt::format(".SH SYNOPSIS\n.B {} COMMAND\n[\\,OPTION...]\n.SH COMMANDS\n", app.get_name());
+  page +=
+      fmt::format(".SH SYNOPSIS\n.B {} COMMAND\n[\\,OPTION...]\n.SH COMMANDS\n", app.get_name());
   for (const CLI::App* command : commands_of(app)) {
     page += fmt::format(".TP\n.BR {}\\-{} (1)\n{}\n", app.get_name(), command->get_name(),
                         roff(command->get_description()));
@@ -116,7 +115,6 @@ std::string main_page(const CLI::App& app) {
       "128+N: ended by signal N.\n";
   return page + roff_footer(app.get_footer());
 }
-
 
 std::vector<std::string> words_of(const CLI::App& app, const CLI::App& command) {
   std::vector<std::string> words;
@@ -139,7 +137,8 @@ std::string bash_completion(const CLI::App& app) {
     cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(),
                          fmt::join(words_of(app, *command), " "));
   }
-  return fmt::format(R"(# Completion of ghtrack in bash: commands, options, and file names elsewhere.
+  return fmt::format(
+      R"(# Completion of ghtrack in bash: commands, options, and file names elsewhere.
 _ghtrack() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} command="" words="" word
   COMPREPLY=()
@@ -163,7 +162,7 @@ _ghtrack() {{
 }}
 complete -o default -F _ghtrack ghtrack
 )",
-                     fmt::join(names, " "), cases);
+      fmt::join(names, " "), cases);
 }
 
 /// For a description in single quotes and square brackets.

@@ -50,7 +50,8 @@ void write_page(const Scene& scene, const SceneOptions& options,
   if (const auto* world = std::get_if<WorldScene>(&scene)) {
     write_file(path, page::scene_page(*world, page_options, stop_if_interrupted));
   } else {
-    write_file(path, page::series_page(with_own_measurements(std::get<SeriesScene>(scene)), page_options));
+    write_file(
+        path, page::series_page(with_own_measurements(std::get<SeriesScene>(scene)), page_options));
   }
 }
 

@@ -10,9 +10,12 @@
 namespace ghtrack::cli {
 
 std::string told_of_passage(const WorldEvent& event, const std::vector<ObjectInfo>& objects) {
-  const auto name = [&](ObjectId object) { return objects.at(static_cast<std::size_t>(object)).name; };
+  const auto name = [&](ObjectId object) {
+    return objects.at(static_cast<std::size_t>(object)).name;
+  };
   return fmt::format(
-      "'{}' and '{}' pass through each other from {:.3f} s on, at ({:.6g}, {:.6g}): trains meet only "
+      "'{}' and '{}' pass through each other from {:.3f} s on, at ({:.6g}, {:.6g}): trains meet "
+      "only "
       "where their tracks are one and the same from end to end, and only from outside",
       name(event.object), name(event.other), event.time, event.position.x(), event.position.y());
 }

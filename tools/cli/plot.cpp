@@ -48,7 +48,9 @@ plot::Figure figure_of(const PlotOptions& options) {
     return plot::figure_of_series((source / "series.csv").string(), {.title = options.title});
   }
   if (is_run && !is_there(source / "tracks.csv")) {
-    throw InputError(source.string() + ": error: the folder holds none of tracks.csv, series.csv and comparison.json");
+    throw InputError(
+        source.string() +
+        ": error: the folder holds none of tracks.csv, series.csv and comparison.json");
   }
   if (!is_run && !looks_like_mot_file(source) && plot::is_series_file(source.string())) {
     return plot::figure_of_series(source.string(), {.title = options.title});
@@ -75,8 +77,8 @@ plot::Figure figure_of(const PlotOptions& options) {
 
 int plot(const PlotOptions& options) {
   if (!plot::is_figure_file(options.output)) {
-    throw UsageError(fmt::format("plot: '{}' must end in .svg, .pdf or .png",
-                                 printable(options.output)));
+    throw UsageError(
+        fmt::format("plot: '{}' must end in .svg, .pdf or .png", printable(options.output)));
   }
   const std::vector<std::string>& known = plot::track_panels();
   for (const std::string& name : options.panels) {

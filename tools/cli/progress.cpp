@@ -45,9 +45,9 @@ void Progress::draw(Clock::time_point now) {
   const double rate = static_cast<double>(done) / std::max(seconds(now - start_), 1e-3);
   const double left = static_cast<double>(total_ - done) / rate;
   const std::size_t filled = kBarWidth * done / total_;
-  const std::string bar = fmt::format(
-      "\r{} [{:#<{}}{:.<{}}] {}/{} {}  {:.0f}/s  {:.0f} s left\033[K", task_, "", filled, "",
-      kBarWidth - filled, done, total_, unit_, rate, left);
+  const std::string bar =
+      fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{} {}  {:.0f}/s  {:.0f} s left\033[K", task_, "",
+                  filled, "", kBarWidth - filled, done, total_, unit_, rate, left);
   std::fputs(bar.c_str(), stderr);
   std::fflush(stderr);
 }

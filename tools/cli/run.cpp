@@ -14,9 +14,9 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
-#include "tools/cli/passages.hpp"
 #include "tools/cli/page_file.hpp"
 #include "tools/cli/panels.hpp"
+#include "tools/cli/passages.hpp"
 #include "tools/cli/run_series.hpp"
 #include "tools/cli/run_watch.hpp"
 #include "tools/cli/scene_source.hpp"
@@ -70,9 +70,11 @@ void warn_of_overruns(const TruthSource& truth) {
   for (const WorldEvent& event : truth.events()) {
     const bool is_overspeed = event.kind == EventKind::kOverspeed;
     if (!is_overspeed && event.kind != EventKind::kOverrun) continue;
-    tell("ghtrack: warning: '{}' {} at {:.6g} s: it began to brake too late, or its brakes are too weak",
-         truth.objects().at(static_cast<std::size_t>(event.object)).name,
-         is_overspeed ? "ran faster than a speed limit allows" : "ran past its stop", event.time);
+    tell(
+        "ghtrack: warning: '{}' {} at {:.6g} s: it began to brake too late, or its brakes are too "
+        "weak",
+        truth.objects().at(static_cast<std::size_t>(event.object)).name,
+        is_overspeed ? "ran faster than a speed limit allows" : "ran past its stop", event.time);
   }
 }
 

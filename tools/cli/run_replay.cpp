@@ -65,9 +65,9 @@ void replay_run(const Campaign& campaign, int run, const std::optional<fs::path>
     const auto film = film_of(trial, cell, run, place);
     RunWatch watch(film->frame_times().size(), manners.quiet);
     try {
-      rows += run_table_rows(cell, trial, run,
-                             trial.scores(run, film->truth(), {&watch, film.get()},
-                                          film->frame_times()));
+      rows += run_table_rows(
+          cell, trial, run,
+          trial.scores(run, film->truth(), {&watch, film.get()}, film->frame_times()));
     } catch (Interrupted& interrupted) {
       keep_partial(*film, place, interrupted);
       throw;

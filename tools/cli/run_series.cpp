@@ -15,9 +15,9 @@
 #include "tools/film/belief_plot.hpp"
 #include "tools/plot/figure_file.hpp"
 #include "tools/plot/series_figure.hpp"
-#include "tools/run/series.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
+#include "tools/run/series.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -26,9 +26,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// A missed measurement is an empty cell.
-std::optional<double> measured(double z) {
-  return std::isnan(z) ? std::nullopt : std::optional(z);
-}
+std::optional<double> measured(double z) { return std::isnan(z) ? std::nullopt : std::optional(z); }
 
 std::string as_csv(const SeriesResult& result) {
   CsvRow csv;
@@ -39,8 +37,8 @@ std::string as_csv(const SeriesResult& result) {
   csv.end();
   for (const SeriesTrack& track : result.tracks) {
     for (const SeriesRow& row : track.rows) {
-      csv << track.filter << row.k << row.t << measured(row.z) << row.x_pred << row.dx_pred << row.residual
-          << row.x << row.dx << row.ddx_pred << row.ddx << row.truth;
+      csv << track.filter << row.k << row.t << measured(row.z) << row.x_pred << row.dx_pred
+          << row.residual << row.x << row.dx << row.ddx_pred << row.ddx << row.truth;
       csv.end();
     }
   }

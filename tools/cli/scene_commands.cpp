@@ -38,9 +38,10 @@ void warn_of_tables(const std::string& file, const Scene& scene) {
     const std::vector<SingleFilterConfig> filters = filters_of(world->tracker, label);
     if (std::none_of(filters.begin(), filters.end(), takes_gains_from_a_table)) continue;
     const std::string key = "tracker.filters." + label;
-    tell("{}: warning: {}: irregular_time: of the scans of {} sensors times and accuracies differ, "
-         "for which only gains-from-covariance is right",
-         place_of(file, key), key, world->sensors.size());
+    tell(
+        "{}: warning: {}: irregular_time: of the scans of {} sensors times and accuracies differ, "
+        "for which only gains-from-covariance is right",
+        place_of(file, key), key, world->sensors.size());
   }
 }
 

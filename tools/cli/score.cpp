@@ -154,15 +154,18 @@ ScoreResult score_box_files(const ScoreOptions& options, const ScorePair& pair, 
 void tell_of_instants(const InstantCounts& counts, double truth_period, double track_period,
                       const Manners& manners) {
   if (manners.quiet) return;
-  const auto tell_how_many = [](std::int64_t count, const std::string& whose, const std::string& what) {
+  const auto tell_how_many = [](std::int64_t count, const std::string& whose,
+                                const std::string& what) {
     if (count > 0) tell("ghtrack: {} instants of the {} {}", count, whose, what);
   };
-  tell_how_many(counts.truth_unscored, "truth",
-       fmt::format("are not scored: they lie between those of the tracks, which are {:.4g} s apart",
-                   track_period));
-  tell_how_many(counts.tracks_unscored, "tracks",
-       fmt::format("are not scored: they lie between those of the truth, which are {:.4g} s apart",
-                   truth_period));
+  tell_how_many(
+      counts.truth_unscored, "truth",
+      fmt::format("are not scored: they lie between those of the tracks, which are {:.4g} s apart",
+                  track_period));
+  tell_how_many(
+      counts.tracks_unscored, "tracks",
+      fmt::format("are not scored: they lie between those of the truth, which are {:.4g} s apart",
+                  truth_period));
   tell_how_many(counts.truth_alone, "truth", "have no tracks; they are scored as missed");
   tell_how_many(counts.tracks_alone, "tracks", "have no truth; they are scored as false");
 }
@@ -173,10 +176,11 @@ ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair
   PointReader tracks(pair.tracks, PointKind::kTracks, reading);
   PointReader truth(pair.truth, PointKind::kTruth, reading, tracks.origin());
   if (truth.origin() && !tracks.origin()) {
-    throw InputError(fmt::format("{}: error: the truth is in degrees, the tracks are in metres "
-                                 "around an origin that their columns origin_lat and origin_lon do "
-                                 "not tell",
-                                 pair.tracks));
+    throw InputError(
+        fmt::format("{}: error: the truth is in degrees, the tracks are in metres "
+                    "around an origin that their columns origin_lat and origin_lon do "
+                    "not tell",
+                    pair.tracks));
   }
   tell_what_was_read(truth.understood(), truth.left_out(), truth.remarks(), manners);
   tell_what_was_read(tracks.understood(), tracks.left_out(), tracks.remarks(), manners);
@@ -269,8 +273,8 @@ std::vector<Part> parts_of(const ScoreOptions& options, const std::vector<ScoreP
 int score(const ScoreOptions& options, const Manners& manners) {
   if (options.format != "auto" && options.format != "csv" && options.format != "mot" &&
       options.format != "kitti") {
-    throw UsageError(
-        fmt::format("score: --format is '{}'; allowed are auto, csv, mot and kitti", options.format));
+    throw UsageError(fmt::format("score: --format is '{}'; allowed are auto, csv, mot and kitti",
+                                 options.format));
   }
   const std::vector<Part> parts = parts_of(options, pairs_to_score(options), manners);
   const bool several = parts.size() > 1;
@@ -280,8 +284,9 @@ int score(const ScoreOptions& options, const Manners& manners) {
   extras.commit();
   const ScoreResult total = several ? combine(results) : results.front();
   if (!total.trajectories && !manners.quiet) {
-    tell("ghtrack: T-GOSPA is left out: its linear programme is too large to be solved in passing; "
-         "--tgospa-gamma asks for it");
+    tell(
+        "ghtrack: T-GOSPA is left out: its linear programme is too large to be solved in passing; "
+        "--tgospa-gamma asks for it");
   }
   if (options.json) {
     nlohmann::ordered_json json = to_json(total);

@@ -39,9 +39,10 @@ std::string tracks_of(const fs::path& tracks, const std::string& name) {
   for (const fs::path& candidate : candidates) {
     if (is_there(candidate)) return candidate.string();
   }
-  throw InputError(fmt::format("{}: error: there are no tracks of '{}': neither {}.txt nor "
-                               "tracks.csv",
-                               tracks.string(), name, name));
+  throw InputError(
+      fmt::format("{}: error: there are no tracks of '{}': neither {}.txt nor "
+                  "tracks.csv",
+                  tracks.string(), name, name));
 }
 
 void add_pairs(const fs::path& truth, const fs::path& tracks, std::vector<ScorePair>& pairs) {
@@ -57,9 +58,10 @@ void add_pairs(const fs::path& truth, const fs::path& tracks, std::vector<ScoreP
     if (is_there(entry.path() / "gt" / "gt.txt")) sequences.push_back(entry.path());
   }
   if (sequences.empty()) {
-    throw InputError(fmt::format(
-        "{}: error: the folder holds neither truth.csv, nor gt/gt.txt, nor sequences with gt/gt.txt",
-        truth.string()));
+    throw InputError(
+        fmt::format("{}: error: the folder holds neither truth.csv, nor gt/gt.txt, nor sequences "
+                    "with gt/gt.txt",
+                    truth.string()));
   }
   std::sort(sequences.begin(), sequences.end());
   for (const fs::path& sequence : sequences) {
@@ -71,8 +73,9 @@ void add_pairs(const fs::path& truth, const fs::path& tracks, std::vector<ScoreP
 
 std::vector<ScorePair> pairs_to_score(const ScoreOptions& options) {
   if (options.truth.size() != options.tracks.size()) {
-    throw UsageError(fmt::format("score: --truth names {} files and --tracks {}; as many are needed",
-                                 options.truth.size(), options.tracks.size()));
+    throw UsageError(
+        fmt::format("score: --truth names {} files and --tracks {}; as many are needed",
+                    options.truth.size(), options.tracks.size()));
   }
   std::vector<ScorePair> pairs;
   for (std::size_t i = 0; i < options.truth.size(); ++i) {

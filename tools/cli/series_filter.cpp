@@ -23,8 +23,8 @@ std::vector<std::string_view> filter_names() {
   auto names = []<class... C>(std::type_identity<std::variant<C...>>) {
     return std::vector<std::string_view>{C::kind...};
   }(std::type_identity<AxisFilterConfig>{});
-  names.insert(names.end(), {gain_design::FadingMemory<1>::kind,
-                             gain_design::BenedictBordner<1>::kind});
+  names.insert(names.end(),
+               {gain_design::FadingMemory<1>::kind, gain_design::BenedictBordner<1>::kind});
   return names;
 }
 
@@ -133,8 +133,9 @@ KalmanFilter<Order, 1> kalman(const FilterCommandOptions& options, double dt,
   const double initial = options.p0 ? need_variance(options, options.p0, "--p0") : 1.0;
   typename Filter::Covariance covariance = initial * Filter::Covariance::Identity();
   if (is_measured) covariance(0, 0) = noise;
-  return Filter({.sigma = std::sqrt(noise), .interval = dt, .process_intensity = std::sqrt(process)},
-                guess, covariance);
+  return Filter(
+      {.sigma = std::sqrt(noise), .interval = dt, .process_intensity = std::sqrt(process)}, guess,
+      covariance);
 }
 
 }  // namespace
@@ -183,8 +184,7 @@ AxisFilter AxisFilters::make(std::size_t axis, const std::optional<double>& firs
                ? AxisFilter(kalman<2>(options_, dt_, guess, first.has_value()))
                : AxisFilter(kalman<1>(options_, dt_, guess, first.has_value()));
   }
-  const double sigma =
-      options_.r ? std::sqrt(need_variance(options_, options_.r, "--r")) : 1.0;
+  const double sigma = options_.r ? std::sqrt(need_variance(options_, options_.r, "--r")) : 1.0;
   if (!first || needs_guess(*plan_.config)) {
     return make_axis_filter(*plan_.config, sigma, dt_, guess);
   }

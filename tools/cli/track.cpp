@@ -25,23 +25,23 @@
 #include "tools/cli/data_source.hpp"
 #include "tools/cli/interruption.hpp"
 #include "tools/cli/messages.hpp"
-#include "tools/cli/track_film.hpp"
 #include "tools/cli/smoothed_tracks.hpp"
+#include "tools/cli/track_film.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/data/formats.hpp"
 #include "tools/data/scan_reader.hpp"
 #include "tools/plot/figure_file.hpp"
 #include "tools/plot/track_figure.hpp"
-#include "tools/run/box_tracking.hpp"
-#include "tools/run/learning.hpp"
-#include "tools/run/offline.hpp"
-#include "tools/run/online.hpp"
-#include "tools/run/shared_times.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/kitti_file.hpp"
 #include "tools/record/mot_file.hpp"
 #include "tools/record/mot_folder.hpp"
 #include "tools/record/run_writer.hpp"
+#include "tools/run/box_tracking.hpp"
+#include "tools/run/learning.hpp"
+#include "tools/run/offline.hpp"
+#include "tools/run/online.hpp"
+#include "tools/run/shared_times.hpp"
 
 namespace ghtrack::cli {
 namespace {
@@ -132,11 +132,12 @@ class FitWatch {
   /// @param learned  whether noise and motion are what the data themselves say
   void report(const OfflineConfig& config, bool learned) const {
     if (confirmed_.empty()) {
-      tell("ghtrack: warning: nothing was confirmed of {} tracks that began: nothing seems to go on "
-           "from scan to scan. If something does, say in a file for --config how: 'noise' and "
-           "'period', for each filter 'initial_speed', 'detection_probability' and 'clutter'; if "
-           "a scan shows one object of many, 'scan: partial'",
-           ids_.size());
+      tell(
+          "ghtrack: warning: nothing was confirmed of {} tracks that began: nothing seems to go on "
+          "from scan to scan. If something does, say in a file for --config how: 'noise' and "
+          "'period', for each filter 'initial_speed', 'detection_probability' and 'clutter'; if "
+          "a scan shows one object of many, 'scan: partial'",
+          ids_.size());
       return;
     }
     constexpr int kFewest = 20;
@@ -144,17 +145,20 @@ class FitWatch {
     if (updates_ < kFewest) return;
     const double ratio = nis_ / updates_ / kExpected;
     if (ratio > kFar) {
-      tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
-           "expect: 'noise'{} or the filters' process noise is too small",
-           ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
+      tell(
+          "ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
+          "expect: 'noise'{} or the filters' process noise is too small",
+          ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
     } else if (ratio < 1.0 / kFar && learned) {
-      tell("ghtrack: the paths are smoother than random motion: squared residuals are {:.2g} times "
-           "what the filters expect, and errors are smaller than they are said to be",
-           ratio);
+      tell(
+          "ghtrack: the paths are smoother than random motion: squared residuals are {:.2g} times "
+          "what the filters expect, and errors are smaller than they are said to be",
+          ratio);
     } else if (ratio < 1.0 / kFar) {
-      tell("ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
-           "expect: 'noise'{} or the filters' process noise is too great",
-           ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
+      tell(
+          "ghtrack: warning: a poor fit: squared residuals are {:.2g} times what the filters "
+          "expect: 'noise'{} or the filters' process noise is too great",
+          ratio, config.noise ? fmt::format(" ({:.3g})", *config.noise) : "");
     }
   }
 
@@ -269,8 +273,9 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   const std::optional<double> in_a_row = rows_of_one_object(first_of(rows));
   reader.rewind();
   if (in_a_row && !manners.quiet) {
-    tell("ghtrack: warning: rows with the same time go on as one object: their times seem to be "
-         "cut, and are spread evenly until the next one; give them with all decimals");
+    tell(
+        "ghtrack: warning: rows with the same time go on as one object: their times seem to be "
+        "cut, and are spread evenly until the next one; give them with all decimals");
   }
   ScanSource scans = in_a_row ? spread(rows, *in_a_row) : rows;
   const auto tell_what_was_learned = [&](const LearnedConfig& learned) {
@@ -325,9 +330,8 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
       tracks.add(now);
       if (filmed) film.add(now);
     });
-    times.of(StageTimes::kWrite, [&] {
-      write_file(options.output, as_geographic_file(options.output, tracks.all()));
-    });
+    times.of(StageTimes::kWrite,
+             [&] { write_file(options.output, as_geographic_file(options.output, tracks.all())); });
   } else {
     TrackColumns columns = geographic_columns(summary.origin, options.degrees);
     if (options.plots) columns = joined(std::move(columns), innovation_columns());
@@ -578,8 +582,7 @@ void change(OfflineConfig& config, const TrackOptions& options) {
     if (name != options.life_cycle) continue;
     config.tracker.life_cycle = life_cycle;
     config.tracker.check([](std::string_view key, std::string_view message) {
-      throw UsageError(
-          fmt::format("track: with that --life-cycle, tracker.{}: {}", key, message));
+      throw UsageError(fmt::format("track: with that --life-cycle, tracker.{}: {}", key, message));
     });
     return;
   }

@@ -17,15 +17,15 @@
 namespace ghtrack::cli {
 namespace {
 
-constexpr double kLongAgo = 1e6;      // times beyond do not count from the start of a video [s]
-constexpr double kSlow = 10.0;        // data that come less often are shown one instant a picture [Hz]
-constexpr double kQuick = 60.0;       // … and more often, at this rate
-constexpr double kTimeLapse = 25.0;   // pictures a second then
-constexpr double kLongestShown = 1.5;  // how long an instant is shown, in periods
-constexpr double kSpeedReach = 0.4;   // over which the speed of a box is taken [s]
-constexpr double kMargin = 0.06;      // around data on dark ground
+constexpr double kLongAgo = 1e6;  // times beyond do not count from the start of a video [s]
+constexpr double kSlow = 10.0;    // data that come less often are shown one instant a picture [Hz]
+constexpr double kQuick = 60.0;   // … and more often, at this rate
+constexpr double kTimeLapse = 25.0;         // pictures a second then
+constexpr double kLongestShown = 1.5;       // how long an instant is shown, in periods
+constexpr double kSpeedReach = 0.4;         // over which the speed of a box is taken [s]
+constexpr double kMargin = 0.06;            // around data on dark ground
 constexpr std::size_t kLongestPast = 2000;  // detections that stay on a map
-constexpr int kLeastSide = 160;       // [px]
+constexpr int kLeastSide = 160;             // [px]
 
 /// Pictures a second of a film without a background that moves.
 double rate_of(double period) {
@@ -45,7 +45,9 @@ void show_past(std::vector<render::FootageDetection>& now,
   while (past.size() > kLongestPast) past.pop_front();
 }
 
-int even(double pixels) { return std::max(kLeastSide, 2 * static_cast<int>(std::ceil(pixels / 2))); }
+int even(double pixels) {
+  return std::max(kLeastSide, 2 * static_cast<int>(std::ceil(pixels / 2)));
+}
 
 /// The last of some moments that is not after a time; they are gone through in order.
 template <class Moments>
@@ -75,8 +77,8 @@ void TrackFilm::add(const TrackSnapshot& tracks) {
     mine.velocity = track.velocity;
     mine.coasting = track.status == TrackStatus::kCoasting;
     if (track.residual) {
-      mine.residual = std::pair(track.prior_position,
-                                Eigen::Vector2d(track.prior_position + *track.residual));
+      mine.residual =
+          std::pair(track.prior_position, Eigen::Vector2d(track.prior_position + *track.residual));
     }
   }
   // Of several scans at one instant the last one counts.
@@ -113,7 +115,8 @@ TrackFilm TrackFilm::of_boxes(const std::vector<MotRow>& tracks,
   };
   for (const MotRow& row : tracks) {
     const double time = time_of(row);
-    if (film.tracks_.empty() || film.tracks_.back().time != time) film.tracks_.push_back({time, {}});
+    if (film.tracks_.empty() || film.tracks_.back().time != time)
+      film.tracks_.push_back({time, {}});
     Track& track = film.tracks_.back().what.emplace_back();
     track.id = static_cast<int>(row.id);
     track.mark = mark_of(row);
@@ -164,9 +167,9 @@ TrackFilm::ToPixel TrackFilm::fitted(const render::BackgroundInfo& background) c
     for (const Mark& mark : moment.what) points.push_back(mark.position);
   }
   const auto world = render::bounding_rectangle(points, kMargin);
-  const render::View view(world.value_or(render::Rectangle{{0.0, 0.0}, {1.0, 1.0}}),
-                          {0.0, 0.0, static_cast<double>(background.width),
-                           static_cast<double>(background.height)});
+  const render::View view(
+      world.value_or(render::Rectangle{{0.0, 0.0}, {1.0, 1.0}}),
+      {0.0, 0.0, static_cast<double>(background.width), static_cast<double>(background.height)});
   return [view](const Eigen::Vector2d& point) { return view.to_pixel(point); };
 }
 
@@ -223,11 +226,11 @@ void TrackFilm::write(const FilmOptions& options, double period,
   Playhead seen(seen_);
   std::size_t pictures = 0, drawn = 0;
   std::deque<render::FootageDetection> past;
-  Progress progress("video", "pictures",
-                    background.images.value_or(
-                        background.moves ? 0
-                                         : static_cast<std::size_t>((pace.end - pace.start) / tick) + 1),
-                    manners.quiet);
+  Progress progress(
+      "video", "pictures",
+      background.images.value_or(
+          background.moves ? 0 : static_cast<std::size_t>((pace.end - pace.start) / tick) + 1),
+      manners.quiet);
   try {
     while (true) {
       stop_if_interrupted();
@@ -248,8 +251,8 @@ void TrackFilm::write(const FilmOptions& options, double period,
           shown.size = pixel_size(track.mark.size);
           shown.coasting = track.coasting;
           if (track.residual && time - now->time < tick) {
-            shown.residual = std::pair(to_pixel(track.residual->first),
-                                       to_pixel(track.residual->second));
+            shown.residual =
+                std::pair(to_pixel(track.residual->first), to_pixel(track.residual->second));
           }
           shown.label = fmt::format("#{} {:.3g} {}/s", track.id, track.velocity.norm(),
                                     in_pixels ? "px" : "m");
@@ -263,8 +266,9 @@ void TrackFilm::write(const FilmOptions& options, double period,
         }
       }
       if (!background.moves && !boxes_) show_past(frame.detections, past);
-      frame.caption = fmt::format("{:.2f} s · {} {}", time - (background.moves ? 0.0 : pace.start),
-                                  frame.tracks.size(), frame.tracks.size() == 1 ? "track" : "tracks");
+      frame.caption =
+          fmt::format("{:.2f} s · {} {}", time - (background.moves ? 0.0 : pace.start),
+                      frame.tracks.size(), frame.tracks.size() == 1 ? "track" : "tracks");
       writer.draw(frame);
       ++pictures;
       progress.advance();
@@ -283,10 +287,11 @@ void TrackFilm::write(const FilmOptions& options, double period,
        background.width, background.height, background.fps,
        pace.speed == 1.0 ? std::string() : fmt::format(", {:.4g} times as fast", pace.speed));
   if (drawn == 0 && !tracks_.empty()) {
-    tell("ghtrack: warning: no picture shows a track: the tracks are there from {:.6g} to {:.6g} s, "
-         "the pictures from {:.6g} to {:.6g} s; --video-start says at which time of the data they "
-         "begin",
-         tracks_.front().time, tracks_.back().time, pace.start, end);
+    tell(
+        "ghtrack: warning: no picture shows a track: the tracks are there from {:.6g} to {:.6g} s, "
+        "the pictures from {:.6g} to {:.6g} s; --video-start says at which time of the data they "
+        "begin",
+        tracks_.front().time, tracks_.back().time, pace.start, end);
   } else if (!tracks_.empty() && tracks_.back().time > end + patience) {
     tell("ghtrack: warning: the pictures end {:.4g} s before the data", tracks_.back().time - end);
   }

@@ -28,10 +28,10 @@ void check_long_option(std::string_view word, const CommandWords& program,
   const auto known = long_options(program, command);
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string_view meant = nearest(name, known);
-  throw UsageError(fmt::format(
-      "{}{}: unknown option '--{}'{}{}", command.name.empty() ? "ghtrack" : "", command.name,
-      shown(name), meant.empty() ? "" : fmt::format("; did you mean '--{}'?", meant),
-      try_help(command)));
+  throw UsageError(fmt::format("{}{}: unknown option '--{}'{}{}",
+                               command.name.empty() ? "ghtrack" : "", command.name, shown(name),
+                               meant.empty() ? "" : fmt::format("; did you mean '--{}'?", meant),
+                               try_help(command)));
 }
 
 void check_short_option(std::string_view word, const CommandWords& program,
@@ -44,10 +44,9 @@ void check_short_option(std::string_view word, const CommandWords& program,
   const auto known = long_options(program, command);
   const std::string_view name = word.substr(1);
   const bool one_dash_too_few = std::find(known.begin(), known.end(), name) != known.end();
-  throw UsageError(fmt::format("{}: unknown option '{}'{}{}",
-                               command.name.empty() ? "ghtrack" : command.name, shown(word),
-                               one_dash_too_few ? fmt::format("; did you mean '--{}'?", name) : "",
-                               try_help(command)));
+  throw UsageError(fmt::format(
+      "{}: unknown option '{}'{}{}", command.name.empty() ? "ghtrack" : command.name, shown(word),
+      one_dash_too_few ? fmt::format("; did you mean '--{}'?", name) : "", try_help(command)));
 }
 
 [[noreturn]] void refuse_command(std::string_view word, std::span<const CommandWords> commands) {

@@ -85,8 +85,9 @@ int video(const VideoCommandOptions& options, const Manners& manners) {
   render::check_request(wanted);
   VideoPlace place(path);
   wanted.path = place.scratch_path();
-  film::Film film(*scene, [scene] { return make_world(*scene); }, wanted, contenders,
-                  {.first = 0, .count = contenders.size()}, stop_if_interrupted);
+  film::Film film(
+      *scene, [scene] { return make_world(*scene); }, wanted, contenders,
+      {.first = 0, .count = contenders.size()}, stop_if_interrupted);
   RunWatch watch(film.frame_times().size(), manners.quiet);
   try {
     ghtrack::run(*scene, film.truth(), contenders, {&watch, &film}, film.frame_times());

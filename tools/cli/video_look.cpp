@@ -26,8 +26,8 @@ std::pair<int, int> parse_size(const std::string& text) {
     const auto [last, height_error] = std::from_chars(x + 1, end, height);
     if (height_error == std::errc{} && last == end) return {width, height};
   }
-  throw UsageError(fmt::format("--size is '{}'; wanted is WIDTHxHEIGHT, such as 1920x1080",
-                               printable(text)));
+  throw UsageError(
+      fmt::format("--size is '{}'; wanted is WIDTHxHEIGHT, such as 1920x1080", printable(text)));
 }
 
 render::Layer parse_layer(const std::string& name) {
@@ -42,8 +42,7 @@ VideoTheme parse_theme(const std::string& name) {
   for (const auto& [known, theme] : enum_names(VideoTheme{})) {
     if (known == name) return theme;
   }
-  throw UsageError(
-      fmt::format("--theme is '{}'; allowed are dark and light", printable(name)));
+  throw UsageError(fmt::format("--theme is '{}'; allowed are dark and light", printable(name)));
 }
 
 double parse_trail(const std::string& text) {

@@ -317,10 +317,9 @@ constexpr std::array<DayCount, 2> kDayCounts = {
      {"days as MATLAB counts them, as s since 1970", 7.14e5, 7.74e5, 719529.0}}};
 
 const DayCount* day_count(double number) {
-  const auto found =
-      std::find_if(kDayCounts.begin(), kDayCounts.end(), [number](const DayCount& days) {
-        return number >= days.least && number <= days.most;
-      });
+  const auto found = std::find_if(
+      kDayCounts.begin(), kDayCounts.end(),
+      [number](const DayCount& days) { return number >= days.least && number <= days.most; });
   return found == kDayCounts.end() ? nullptr : &*found;
 }
 
@@ -352,7 +351,7 @@ Clock::Clock(const TimeFormat& format, std::string_view first) : point_(format.p
     kind_ = Kind::kDateTime;
     if (!parse_date_time(first)) order_ = DateOrder::kMonthFirst;
     const bool year_first = first.size() >= 4 && first.find_first_not_of("0123456789") >= 4;
-    meaning_ = year_first ? "ISO 8601, as s since 1970"
+    meaning_ = year_first                                  ? "ISO 8601, as s since 1970"
                : first.find('/') == std::string_view::npos ? "dates, as s since 1970"
                : order_ == DateOrder::kDayFirst            ? "day/month/year, as s since 1970"
                                                            : "month/day/year, as s since 1970";
@@ -394,9 +393,8 @@ std::optional<double> Clock::seconds(std::string_view time) const {
 std::string_view Clock::expectation() const {
   return kind_ == Kind::kDateTime    ? "a date and time such as 2024-06-11T09:30:15Z"
          : kind_ == Kind::kTimeOfDay ? "a time of day such as 09:30:15"
-         : is_unreadable_
-             ? "a number, or a date and time such as 2024-06-11T09:30:15Z"
-             : "a finite number";
+         : is_unreadable_            ? "a number, or a date and time such as 2024-06-11T09:30:15Z"
+                                     : "a finite number";
 }
 
 }  // namespace ghtrack

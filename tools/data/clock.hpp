@@ -15,12 +15,11 @@ constexpr double kDay = 86400.0;  // [s]
 enum class DateOrder { kDayFirst, kMonthFirst };
 
 /// Seconds since 1970-01-01T00:00:00 UTC of a date and time after ISO 8601:
-/// `2024-06-11T09:30:15.25+02:00`. T may be a blank, dashes may be slashes, points or missing in both
-/// parts (then T, too), seconds may be missing, decimals may follow a comma, a zone may be Z, UTC,
-/// ±hh, ±hhmm or ±hh:mm, or one of these after UTC;
-/// without one it is UTC. The date may also be `11.06.2024`, `11/06/2024` or, with the month first,
-/// `06/11/2024`, `11-Jun-2024`, or `Tue Jun 11 09:30:15 GMT+02:00 2024`; the time may be
-/// `9:30:15 AM`. Absent if the text is anything else.
+/// `2024-06-11T09:30:15.25+02:00`. T may be a blank, dashes may be slashes, points or missing in
+/// both parts (then T, too), seconds may be missing, decimals may follow a comma, a zone may be Z,
+/// UTC, ±hh, ±hhmm or ±hh:mm, or one of these after UTC; without one it is UTC. The date may also
+/// be `11.06.2024`, `11/06/2024` or, with the month first, `06/11/2024`, `11-Jun-2024`, or `Tue Jun
+/// 11 09:30:15 GMT+02:00 2024`; the time may be `9:30:15 AM`. Absent if the text is anything else.
 std::optional<double> parse_date_time(std::string_view text,
                                       DateOrder order = DateOrder::kDayFirst);
 
@@ -40,7 +39,7 @@ bool is_date_or_day(std::string_view text, char point);
 
 /// What is known of a column of times but for its cells.
 struct TimeFormat {
-  std::optional<Unit> unit = std::nullopt;  // if the heading has one
+  std::optional<Unit> unit = std::nullopt;          // if the heading has one
   std::optional<double> frame_rate = std::nullopt;  // of a column of frame numbers [Hz]
   bool are_dates = false;                           // the heading says so
   char point = '.';                                 // before decimals

@@ -61,9 +61,9 @@ std::size_t thousands_marks(std::string_view cell, char mark) {
 
 /// What the cells of a table say of the mark before the decimals.
 struct MarkCount {
-  std::size_t decimal = 0;       // can be nothing else: "1,5", "1.234,5"
-  std::size_t either = 0;        // decimals or thousands: "1,234"
-  std::size_t thousands = 0;     // can be nothing else: "1,234,567", "1,234.5"
+  std::size_t decimal = 0;    // can be nothing else: "1,5", "1.234,5"
+  std::size_t either = 0;     // decimals or thousands: "1,234"
+  std::size_t thousands = 0;  // can be nothing else: "1,234,567", "1,234.5"
 
   void add(std::string_view cell, char mark, char other) {
     const std::size_t marks = thousands_marks(cell, mark);

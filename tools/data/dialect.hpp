@@ -10,8 +10,8 @@ namespace ghtrack {
 
 /// How the cells of a table are written.
 struct Dialect {
-  char separator = ',';  // ',', ';', tab, '|' or ' ', which stands for any number of blanks
-  char point = '.';      // before the decimals: '.' or ','
+  char separator = ',';        // ',', ';', tab, '|' or ' ', which stands for any number of blanks
+  char point = '.';            // before the decimals: '.' or ','
   bool has_thousands = false;  // parted by the other of the two: 1,234.5
 
   std::string describe() const;  // "semicolons, decimal comma"

@@ -60,8 +60,8 @@ std::string gpx_as_csv(const std::string& path) {
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
   if (!parsed) {
-    throw InputError(fmt::format("{}: error: no XML: {} at byte {}", path, parsed.description(),
-                                 parsed.offset));
+    throw InputError(
+        fmt::format("{}: error: no XML: {} at byte {}", path, parsed.description(), parsed.offset));
   }
   Rows rows;
   int number = 0;
@@ -80,9 +80,8 @@ std::string gpx_as_csv(const std::string& path) {
   for_each_child(document, "gpx", [&](const pugi::xml_node& gpx) {
     for_each_child(gpx, "trk", [&](const pugi::xml_node& track) {
       ++number;
-      for_each_child(track, "trkseg", [&](const pugi::xml_node& segment) {
-        for_each_child(segment, "trkpt", add);
-      });
+      for_each_child(track, "trkseg",
+                     [&](const pugi::xml_node& segment) { for_each_child(segment, "trkpt", add); });
     });
   });
   if (rows.is_empty()) {
@@ -246,9 +245,9 @@ std::string as_geographic_file(const std::string& path, const std::vector<GeoTra
     for (const GeoTrack& track : tracks) {
       text += fmt::format("<trk><name>{}</name><trkseg>\n", track.id);
       for (const GeographicPoint& point : track.points) {
-        text += fmt::format("<trkpt lat=\"{}\" lon=\"{}\"><time>{}</time></trkpt>\n",
-                            point.place.latitude, point.place.longitude,
-                            format_date_time(point.time));
+        text +=
+            fmt::format("<trkpt lat=\"{}\" lon=\"{}\"><time>{}</time></trkpt>\n",
+                        point.place.latitude, point.place.longitude, format_date_time(point.time));
       }
       text += "</trkseg></trk>\n";
     }

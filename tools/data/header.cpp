@@ -60,7 +60,8 @@ constexpr std::array<Alias, 16> kAliases = {{
      "data signal x"},
     {Role::kLatitude,
      "lat latitude lat_deg latitude_deg gps_lat location_lat position_lat gps_latitude latitud "
-     "latitudine breite breitengrad geographische_breite latitude_e7 lat_e7 late7 latitude_e6 lat_e6 "
+     "latitudine breite breitengrad geographische_breite latitude_e7 lat_e7 late7 latitude_e6 "
+     "lat_e6 "
      "late6"},
     {Role::kLongitude,
      "lon long lng longitude lon_deg longitude_deg gps_lon gps_long location_long location_lon "
@@ -349,8 +350,8 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
     });
   }
   for (const auto& [role, words] :
-       {std::pair(Role::kTime, "t time stamp timestamp zeit"), std::pair(Role::kX, "x"), std::pair(Role::kY, "y"),
-        std::pair(Role::kLatitude, "lat latitude"),
+       {std::pair(Role::kTime, "t time stamp timestamp zeit"), std::pair(Role::kX, "x"),
+        std::pair(Role::kY, "y"), std::pair(Role::kLatitude, "lat latitude"),
         std::pair(Role::kLongitude, "lon long longitude")}) {
     if (has(role)) continue;
     if (const auto column = column_telling(words, headings)) columns_.emplace_back(role, *column);

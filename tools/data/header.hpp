@@ -64,8 +64,8 @@ class Scale {
 
 /// The column of a table as its header cell tells it.
 struct Heading {
-  std::string text;          // the whole cell
-  std::string base;          // without its unit, in lower case, words joined by '_'
+  std::string text;                         // the whole cell
+  std::string base;                         // without its unit, in lower case, words joined by '_'
   std::optional<Unit> unit = std::nullopt;  // "(mm)", "[ms]", "/ s", "in cm", "_us"
   std::string unread = {};                  // what stands in brackets, if it is no unit
 };

@@ -21,8 +21,8 @@ Eigen::Vector2d to_metres(const GeoPoint& origin, const GeoPoint& point) {
 GeoPoint to_degrees(const GeoPoint& origin, const Eigen::Vector2d& position) {
   static const GeographicLib::AzimuthalEquidistant projection;
   GeoPoint point;
-  projection.Reverse(origin.latitude, origin.longitude, position.x(), position.y(),
-                     point.latitude, point.longitude);
+  projection.Reverse(origin.latitude, origin.longitude, position.x(), position.y(), point.latitude,
+                     point.longitude);
   return point;
 }
 
@@ -65,8 +65,7 @@ std::optional<GeoPoint> parse_place(std::string_view text) {
 }
 
 bool is_on_earth(const GeoPoint& point) {
-  return std::abs(point.latitude) <= 90.0 && point.longitude >= -180.0 &&
-         point.longitude <= 360.0;
+  return std::abs(point.latitude) <= 90.0 && point.longitude >= -180.0 && point.longitude <= 360.0;
 }
 
 }  // namespace ghtrack

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "tools/data/fix_columns.hpp"
-#include "tools/record/ordered_rows.hpp"
 #include "tools/data/words.hpp"
+#include "tools/record/ordered_rows.hpp"
 
 namespace ghtrack {
 namespace {
@@ -23,7 +23,8 @@ struct PointRow {
 /// The column of identities: by the name that our own files have, or by an alias.
 std::size_t identity_column(Table& table, PointKind kind) {
   const char* name = kind == PointKind::kTruth ? "truth_id" : "track_id";
-  if (const auto own = table.column(name); own && !table.columns().is_chosen(Role::kIdentity)) return *own;
+  if (const auto own = table.column(name); own && !table.columns().is_chosen(Role::kIdentity))
+    return *own;
   if (table.columns().has(Role::kIdentity)) return *table.columns().find(Role::kIdentity);
   return table.required(Role::kIdentity);
 }

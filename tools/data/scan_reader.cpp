@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "tools/data/fix_columns.hpp"
-#include "tools/record/ordered_rows.hpp"
 #include "tools/data/words.hpp"
 #include "tools/record/errors.hpp"
+#include "tools/record/ordered_rows.hpp"
 
 namespace ghtrack {
 namespace {

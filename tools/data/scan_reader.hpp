@@ -16,15 +16,15 @@ namespace ghtrack {
 
 /// What a file of measurements holds, as going through it once has shown.
 struct DataSummary {
-  std::int64_t rows = 0;      // of data that are used
-  std::int64_t instants = 0;  // different times
-  std::int64_t missed = 0;    // rows without a position
-  std::int64_t left_out = 0;  // bad rows
-  std::int64_t repeated = 0;  // rows that a logger wrote twice, to the letter
+  std::int64_t rows = 0;                     // of data that are used
+  std::int64_t instants = 0;                 // different times
+  std::int64_t missed = 0;                   // rows without a position
+  std::int64_t left_out = 0;                 // bad rows
+  std::int64_t repeated = 0;                 // rows that a logger wrote twice, to the letter
   double first_time = 0.0, last_time = 0.0;  // [s]
-  double period = 0.0;        // median time between instants [s]; 0 if there are no two
-  bool in_order = true;       // of time, in the file
-  bool has_sigma = false;     // rows say their own error
+  double period = 0.0;               // median time between instants [s]; 0 if there are no two
+  bool in_order = true;              // of time, in the file
+  bool has_sigma = false;            // rows say their own error
   std::vector<std::string> sensors;  // by index; empty if the file has no such column
   std::optional<GeoPoint> origin;    // of the local metres, if the file is in degrees
   std::vector<std::string> remarks;  // on the first of the bad rows

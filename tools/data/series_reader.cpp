@@ -45,7 +45,8 @@ std::optional<std::size_t> only_column_left(const Table& table) {
   for (std::size_t i = 0; i < table.headings().size(); ++i) {
     const std::string& name = table.headings()[i].text;
     const bool is_known = table.columns().has_role(i) || name == "g" || name == "h" ||
-                          name == "k" || table.column_with_unit("dt") == i || name.starts_with("truth");
+                          name == "k" || table.column_with_unit("dt") == i ||
+                          name.starts_with("truth");
     if (is_known) continue;
     if (left) return std::nullopt;
     left = i;
@@ -73,9 +74,7 @@ Measured find_measured(const Table& table) {
 }
 
 /// Whether it is what `ghtrack filter` writes, where k counts rows.
-bool is_filtered(const Table& table) {
-  return table.column("x_pred") || table.column("x_pred_x");
-}
+bool is_filtered(const Table& table) { return table.column("x_pred") || table.column("x_pred_x"); }
 
 /// A column of numbers in a unit.
 struct Quantity {
@@ -174,13 +173,12 @@ struct SeriesReader::State {
     ++false_times;
     if (false_times > kWarnings + 1) return;
     const std::string place = fmt::format("{}:{}: warning: ", table.name(), row.line);
-    warnings.push_back(
-        place + (false_times > kWarnings
-                     ? std::string("more rows like this are left out")
-                     : fmt::format("the time {} {}; the row is left out", *row.time,
-                                   placing == Placing::kLate
-                                       ? "is before that of the row before"
-                                       : "is after those of the rows that follow")));
+    warnings.push_back(place + (false_times > kWarnings
+                                    ? std::string("more rows like this are left out")
+                                    : fmt::format("the time {} {}; the row is left out", *row.time,
+                                                  placing == Placing::kLate
+                                                      ? "is before that of the row before"
+                                                      : "is after those of the rows that follow")));
   }
 
   /// The next sound row of the table; false after the last.

@@ -101,8 +101,8 @@ std::vector<Heading> headings_below(const std::vector<std::string>& above,
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (i < above.size() && !above[i].empty()) group = above[i];
     const bool repeats = std::count(cells.begin(), cells.end(), cells[i]) > 1;
-    headings.push_back(parse_heading(repeats ? fmt::format("{} {}", group, cells[i])
-                                             : std::string(cells[i])));
+    headings.push_back(
+        parse_heading(repeats ? fmt::format("{} {}", group, cells[i]) : std::string(cells[i])));
   }
   return headings;
 }
@@ -342,8 +342,7 @@ std::size_t Table::required(Role role) {
 }
 
 std::string_view Table::first_cell(std::size_t column) const {
-  return column < first_cells_.size() ? std::string_view(first_cells_[column])
-                                      : std::string_view{};
+  return column < first_cells_.size() ? std::string_view(first_cells_[column]) : std::string_view{};
 }
 
 bool Table::begins_with_numbers(std::size_t column) {
@@ -424,8 +423,8 @@ void Table::throw_findings() const {
 
 void Table::rewind() {
   input_.rewind();
-  for (std::int64_t skipped = 0, last = sample_.empty() ? 0 : sample_.back().number;
-       skipped < last; ++skipped) {
+  for (std::int64_t skipped = 0, last = sample_.empty() ? 0 : sample_.back().number; skipped < last;
+       ++skipped) {
     input_.next();
   }
   at_ = first_row_;

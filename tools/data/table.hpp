@@ -16,15 +16,16 @@ namespace ghtrack {
 
 /// How somebody else's file is to be read.
 struct ReadOptions {
-  std::string columns = {};                          // t=NAME,x=NAME,…; empty: by their names
-  std::string time_column = {};                      // the same of t, with any name
-  std::optional<double> frame_rate = std::nullopt;   // of a column of frame numbers [Hz]
-  bool skip_bad_rows = false;                        // leave them out instead of refusing the file
-  std::function<void()> pause = {};                  // called between blocks; may throw
+  std::string columns = {};                         // t=NAME,x=NAME,…; empty: by their names
+  std::string time_column = {};                     // the same of t, with any name
+  std::optional<double> frame_rate = std::nullopt;  // of a column of frame numbers [Hz]
+  bool skip_bad_rows = false;                       // leave them out instead of refusing the file
+  std::function<void()> pause = {};                 // called between blocks; may throw
 };
 
 /// A table of text, row by row in constant memory: CSV and its kin, with a header row, a header in
-/// the last comment line, or none. Empty lines and those that start with #, % or // are passed over.
+/// the last comment line, or none. Empty lines and those that start with #, % or // are passed
+/// over.
 ///
 /// What is wrong with rows is gathered: throw_findings() refuses the file with all of it, unless
 /// bad rows are to be left out.
@@ -128,7 +129,7 @@ class Table {
   std::vector<Heading> headings_;
   ColumnMap columns_;
   bool has_header_ = false;
-  std::string header_;  // the row itself
+  std::string header_;              // the row itself
   std::vector<SampleLine> sample_;  // the first lines that are no comments
   std::size_t first_row_ = 0;       // where in the sample the data begin
   std::size_t at_ = 0;              // in the sample

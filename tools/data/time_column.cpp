@@ -38,12 +38,11 @@ TimeColumn::TimeColumn(Table& table, const ReadOptions& options) {
   }
   column_ = frames ? *frame : time ? *time : table.required(Role::kTime);
   const std::size_t width = table.headings().size();
-  clock_.emplace(
-      TimeFormat{.unit = column_ < width ? table.headings()[column_].unit : std::nullopt,
-                 .frame_rate = frames || is_chosen ? options.frame_rate : std::nullopt,
-                 .are_dates = columns.find(Role::kDate) == column_,
-                 .point = table.dialect().point},
-      table.first_value(column_));
+  clock_.emplace(TimeFormat{.unit = column_ < width ? table.headings()[column_].unit : std::nullopt,
+                            .frame_rate = frames || is_chosen ? options.frame_rate : std::nullopt,
+                            .are_dates = columns.find(Role::kDate) == column_,
+                            .point = table.dialect().point},
+                 table.first_value(column_));
   const auto date = columns.find(Role::kDate);
   if (!date || *date == column_ || !clock_->is_time_of_day()) return;
   date_ = date;

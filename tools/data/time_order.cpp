@@ -7,8 +7,8 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kMixed = 0.3;    // from this share of rows out of order on, none is false
-constexpr double kReach = 2.5;    // how far outside of the others a true time can be, in steps
+constexpr double kMixed = 0.3;     // from this share of rows out of order on, none is false
+constexpr double kReach = 2.5;     // how far outside of the others a true time can be, in steps
 constexpr double kRepeats = 0.05;  // closer to another time than this is a repetition, in steps
 
 /// Whether each row is in the longest run of times that never go back (patience sorting).
@@ -17,8 +17,9 @@ std::vector<bool> longest_run(const std::vector<double>& times) {
   std::vector<std::size_t> ends;  // last row of the best run of each length
   std::vector<std::size_t> before(times.size(), kNone);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto at = std::upper_bound(ends.begin(), ends.end(), times[i],
-                                     [&](double time, std::size_t row) { return time < times[row]; });
+    const auto at =
+        std::upper_bound(ends.begin(), ends.end(), times[i],
+                         [&](double time, std::size_t row) { return time < times[row]; });
     if (at != ends.begin()) before[i] = *(at - 1);
     if (at == ends.end()) {
       ends.push_back(i);

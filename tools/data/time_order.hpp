@@ -15,10 +15,10 @@ enum class Placing {
 
 /// Tells rows that are out of order from rows whose clock was wrong.
 ///
-/// The longest run of rows in order is trusted. Where more than three tenths of the rows are not in it,
-/// the file is in another order, and every row is kept. Otherwise a row is kept if its time falls
-/// between those of the trusted rows, or not further outside than a few steps, and repeats none of
-/// them.
+/// The longest run of rows in order is trusted. Where more than three tenths of the rows are not in
+/// it, the file is in another order, and every row is kept. Otherwise a row is kept if its time
+/// falls between those of the trusted rows, or not further outside than a few steps, and repeats
+/// none of them.
 /// @param times  in the order of the file [s]
 std::vector<Placing> placings(const std::vector<double>& times);
 

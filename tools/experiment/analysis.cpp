@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kTheoryRuns = 200;
 constexpr int kRunsOfOneTruth = 25;
-constexpr std::size_t kGridSide = 20;  // of a gain surface
+constexpr std::size_t kGridSide = 20;         // of a gain surface
 constexpr std::size_t kTheoryScans = 60'000;  // of all runs
 constexpr std::size_t kSurfaceScans = 4000;
 
@@ -129,7 +129,7 @@ class ExampleRecorder final : public RunObserver {
 
 /// Those of the objects that belong to a regime.
 std::vector<LabelledObject> objects_of(const std::vector<LabelledObject>& objects,
-                                      const Subject& regime) {
+                                       const Subject& regime) {
   std::vector<LabelledObject> chosen;
   std::copy_if(objects.begin(), objects.end(), std::back_inserter(chosen),
                [&](const LabelledObject& object) { return belongs_to(object.id, regime); });
@@ -187,9 +187,10 @@ std::vector<SubjectTheory> theory_of(const Trial& trial, const SharedTruth& trut
   // The only object of a scene is all of its regime and of the scene, too.
   const std::vector<Subject>& subjects = trial.subjects();
   const auto same_objects = [&](std::size_t i) {
-    return std::find_if(subjects.begin(), subjects.end(), [&](const Subject& other) {
-             return other.objects == subjects[i].objects;
-           }) - subjects.begin();
+    return std::find_if(
+               subjects.begin(), subjects.end(),
+               [&](const Subject& other) { return other.objects == subjects[i].objects; }) -
+           subjects.begin();
   };
   const std::vector<std::optional<RandomMotion>> motions =
       random_motions(trial.scene(), Runs::kMany);

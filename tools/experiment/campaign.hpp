@@ -50,8 +50,8 @@ std::string write_campaign(const Campaign& campaign);
 /// @throws InputError if the text is not of a campaign
 Campaign read_back(std::string_view text, const std::string& file);
 
-/// The seed of a run: the scene's own for run 0, and for the others numbers below 2^53 that no other
-/// run has, nor any run of a scene with another seed, but for chance (one pair in 10^16).
+/// The seed of a run: the scene's own for run 0, and for the others numbers below 2^53 that no
+/// other run has, nor any run of a scene with another seed, but for chance (one pair in 10^16).
 std::uint64_t seed_of_run(std::uint64_t seed, int run);
 
 /// Runs of a scene that no campaign has, whatever its length: gains are tuned on the former and

@@ -80,7 +80,8 @@ class CellReduction {
           .values = values_.at(layout_.value(contender, subject, metric)),
           .followed = values_.at(layout_.value(contender, subject, Metric::kTracked))};
       const auto& values = of_filter.values;
-      if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); })) continue;
+      if (std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); }))
+        continue;
       filters.push_back(contender);
       runs.push_back(std::move(of_filter));
     }
@@ -104,12 +105,12 @@ class CellReduction {
   }
 
   /// By the filter's closed forms, if they cover all the runs that have the metric. Where shadows
-  /// tell, a few of them may make most of the mean, so that it is known less well than by measuring:
-  /// then it is not known. Where nothing but which detections are missed makes runs differ, it is.
+  /// tell, a few of them may make most of the mean, so that it is known less well than by
+  /// measuring: then it is not known. Where nothing but which detections are missed makes runs
+  /// differ, it is.
   void predict(std::size_t subject, ComparisonRow& row) const {
-    const SampleMean mean =
-        mean_of(values_.at(layout_.predicted(row.filter, subject, row.metric)),
-                info(row.metric).average);
+    const SampleMean mean = mean_of(values_.at(layout_.predicted(row.filter, subject, row.metric)),
+                                    info(row.metric).average);
     if (mean.values != row.runs) return;
     if (mean.has_heavy_tails && mean.ci95 && row.ci95 &&
         mean.ci95->high - mean.ci95->low > row.ci95->high - row.ci95->low && shadows_tell(row)) {
@@ -133,9 +134,7 @@ class CellReduction {
     });
   }
 
-  bool may_be_ruined() const {
-    return trial_.scene().tracker.association != Association::kKnown;
-  }
+  bool may_be_ruined() const { return trial_.scene().tracker.association != Association::kKnown; }
 
   std::string gains_of(std::size_t contender, const std::string& regime) const {
     const std::map<std::string, FilterConfig>& filters = trial_.design(contender).config().filters;

@@ -37,11 +37,11 @@ struct ComparisonRow {
   std::optional<Interval> median_ci95;  // absent with too few runs to tell
   bool has_heavy_tails = false;         // few runs make most of the mean: the median is what counts
   std::optional<double> predicted;      // by the filter's closed forms
-  std::optional<Interval> predicted_ci95;  // absent with too few runs to tell
-  Hindsight hindsight;                  // of its subject; empty but for the RMSE of position
-  std::optional<double> tracking_index;  // of its subject, a T² / σ; as the hindsight
-  std::int64_t runs = 0;                // in which the metric has a value
-  std::optional<double> difference;     // to the best filter's mean; 0 for itself
+  std::optional<Interval> predicted_ci95;   // absent with too few runs to tell
+  Hindsight hindsight;                      // of its subject; empty but for the RMSE of position
+  std::optional<double> tracking_index;     // of its subject, a T² / σ; as the hindsight
+  std::int64_t runs = 0;                    // in which the metric has a value
+  std::optional<double> difference;         // to the best filter's mean; 0 for itself
   std::optional<Interval> difference_ci95;  // paired by runs; absent for the best itself
   Significance significance = Significance::kNone;
   std::optional<double> runs_to_decide;  // where it is undecided: about so many would

@@ -30,32 +30,31 @@ std::optional<double> high(const std::optional<Interval>& interval) {
 
 Json row_json(const ComparisonRow& row, const Comparison& comparison) {
   const ComparedCell& cell = comparison.cells[row.cell];
-  Json json = {
-          {"scene", cell.scene},
-          {"sweep", cell.sweep},
-          {"regime", row.regime},
-          {"object", row.object},
-          {"filter", comparison.filters[row.filter]},
-          {"gains", row.gains},
-          {"metric", info(row.metric).name},
-          {"unit", info(row.metric).unit},
-          {"mean", number(row.mean)},
-          {"ci95", interval(row.ci95)},
-          {"interval", interval_kind(info(row.metric).average)},
-          {"predicted", number(row.predicted)},
-          {"predicted_ci95", interval(row.predicted_ci95)}};
+  Json json = {{"scene", cell.scene},
+               {"sweep", cell.sweep},
+               {"regime", row.regime},
+               {"object", row.object},
+               {"filter", comparison.filters[row.filter]},
+               {"gains", row.gains},
+               {"metric", info(row.metric).name},
+               {"unit", info(row.metric).unit},
+               {"mean", number(row.mean)},
+               {"ci95", interval(row.ci95)},
+               {"interval", interval_kind(info(row.metric).average)},
+               {"predicted", number(row.predicted)},
+               {"predicted_ci95", interval(row.predicted_ci95)}};
   for (const Reference& reference : kReferences) {
     json[std::string(reference.name)] = number(row.hindsight.*reference.value);
   }
   json.update({{"runs", row.runs},
-          {"difference", number(row.difference)},
-          {"difference_ci95", interval(row.difference_ci95)},
-          {"verdict", to_string(row.significance)},
-          {"runs_to_decide", number(row.runs_to_decide)},
-          {"median", number(row.median)},
-          {"median_ci95", interval(row.median_ci95)},
-          {"heavy_tails", row.has_heavy_tails},
-          {"tracking_index", number(row.tracking_index)}});
+               {"difference", number(row.difference)},
+               {"difference_ci95", interval(row.difference_ci95)},
+               {"verdict", to_string(row.significance)},
+               {"runs_to_decide", number(row.runs_to_decide)},
+               {"median", number(row.median)},
+               {"median_ci95", interval(row.median_ci95)},
+               {"heavy_tails", row.has_heavy_tails},
+               {"tracking_index", number(row.tracking_index)}});
   return json;
 }
 
@@ -138,18 +137,21 @@ std::string lost_text_of(const TableRows& tracked, const TableKey& key, std::siz
 std::string comparison_csv(const Comparison& comparison) {
   std::string text =
       "scene,regime,object,filter,gains,metric,mean,ci95_low,ci95_high,predicted,runs,sweep,unit,"
-      "interval,raw,best_fixed_gains,crlb,smoother,difference,difference_low,difference_high,verdict,runs_to_decide,median,median_low,median_high,tails,tracking_index,predicted_low,predicted_high\n";
+      "interval,raw,best_fixed_gains,crlb,smoother,difference,difference_low,difference_high,"
+      "verdict,runs_to_decide,median,median_low,median_high,tails,tracking_index,predicted_low,"
+      "predicted_high\n";
   CsvRow line;
   for (const ComparisonRow& row : comparison.rows) {
     const ComparedCell& cell = comparison.cells[row.cell];
     line.clear();
     line << cell.scene << row.regime << row.object << comparison.filters[row.filter] << row.gains
          << info(row.metric).name << row.mean << low(row.ci95) << high(row.ci95) << row.predicted
-         << row.runs << cell.sweep << info(row.metric).unit << interval_kind(info(row.metric).average)
-         << row.hindsight.raw << row.hindsight.best_fixed_gains << row.hindsight.crlb
-         << row.hindsight.smoother << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
-         << to_string(row.significance) << row.runs_to_decide << row.median
-         << low(row.median_ci95) << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "") << row.tracking_index
+         << row.runs << cell.sweep << info(row.metric).unit
+         << interval_kind(info(row.metric).average) << row.hindsight.raw
+         << row.hindsight.best_fixed_gains << row.hindsight.crlb << row.hindsight.smoother
+         << row.difference << low(row.difference_ci95) << high(row.difference_ci95)
+         << to_string(row.significance) << row.runs_to_decide << row.median << low(row.median_ci95)
+         << high(row.median_ci95) << (row.has_heavy_tails ? "heavy" : "") << row.tracking_index
          << low(row.predicted_ci95) << high(row.predicted_ci95);
     line.end();
     text += line.text();
@@ -208,11 +210,15 @@ std::string to_table(const Comparison& comparison, std::size_t width) {
     }
   }
   std::string text =
-      "RMSE of position [m] ± half of its 95 % interval. * better than all others, = within 1 % of\n"
-      "the best, ? undecided, few: too few runs to tell; ~ the median of the runs, where few may make\n"
+      "RMSE of position [m] ± half of its 95 % interval. * better than all others, = within 1 % "
+      "of\n"
+      "the best, ? undecided, few: too few runs to tell; ~ the median of the runs, where few may "
+      "make\n"
       "most of the mean. lost %: scans in which an object was not followed, which no RMSE counts.\n"
-      "raw: the detections; best fixed: expected of the best fixed gains, chosen afterwards, knowing\n"
-      "which detection is whose; CRLB: below which no filter can be, where the motion is random by a\n"
+      "raw: the detections; best fixed: expected of the best fixed gains, chosen afterwards, "
+      "knowing\n"
+      "which detection is whose; CRLB: below which no filter can be, where the motion is random by "
+      "a\n"
       "law that is known; smoother: of one that also knows all later detections\n\n" +
       text_table(columns, table, {.width = width, .repeated = 2});
   if (const auto runs = runs_to_decide(comparison)) {

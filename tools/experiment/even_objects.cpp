@@ -78,7 +78,8 @@ Mean EvenObjects::expected_error(GainFilter<2> filter) const {
     noise += filter.noise_sigma().squaredNorm();
   }
   const auto objects = static_cast<double>(lanes / 2);
-  const double weight = objects * static_cast<double>(lanes_.scans().size() - lanes_.first_judged());
+  const double weight =
+      objects * static_cast<double>(lanes_.scans().size() - lanes_.first_judged());
   Mean mean;
   mean.add((lag + objects * noise) / weight, weight);
   return mean;

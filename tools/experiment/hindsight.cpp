@@ -19,8 +19,8 @@ namespace ghtrack {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::infinity();
-constexpr double kDiffuse = 100.0;       // a start's uncertainty, in sigmas per period
-constexpr double kMostLooks = 20'000.0;  // at all objects of a run
+constexpr double kDiffuse = 100.0;             // a start's uncertainty, in sigmas per period
+constexpr double kMostLooks = 20'000.0;        // at all objects of a run
 constexpr std::size_t kMostSmoothed = 20'000;  // scans
 constexpr std::size_t kMostShadowed = 4'000;   // with errors of all kinds
 
@@ -34,7 +34,10 @@ class Judge {
  public:
   Judge(const ObjectsOfRuns& objects, std::span<const SensorConfig> sensors,
         const RunMetricsOptions& scoring, const std::function<void()>& on_step)
-      : objects_(objects), sensors_(sensors), scoring_(scoring), on_step_(on_step),
+      : objects_(objects),
+        sensors_(sensors),
+        scoring_(scoring),
+        on_step_(on_step),
         design_(best_sensor(sensors)) {
     for (const SensorConfig& sensor : sensors) {
       const auto* position = std::get_if<PositionSensor>(&sensor.model);
@@ -75,7 +78,8 @@ class Judge {
     return squares.root().value_or(kNoValue);
   }
 
-  /// The same of a filter with these gains; they may be too small for rounding to leave them stable.
+  /// The same of a filter with these gains; they may be too small for rounding to leave them
+  /// stable.
   double expected_of(const Gains& gains) const {
     return is_stable(gains) ? expected(with(gains)) : kNoValue;
   }
@@ -127,14 +131,13 @@ class Judge {
     config.model = noise;
     config.initial_speed = kDiffuse * scoring_.sigma / scoring_.period;
     config.initial_acceleration = config.initial_speed / scoring_.period;
-    const LaneMotion motion{
-        .order = Order,
-        .noise_over =
-            [&](double dt) {
-              return process_noise(ProcessModel::kPiecewiseConstant, Order, noise.process_noise, dt,
-                                   scoring_.period);
-            },
-        .spread = {0.0, config.initial_speed, config.initial_acceleration}};
+    const LaneMotion motion{.order = Order,
+                            .noise_over =
+                                [&](double dt) {
+                                  return process_noise(ProcessModel::kPiecewiseConstant, Order,
+                                                       noise.process_noise, dt, scoring_.period);
+                                },
+                            .spread = {0.0, config.initial_speed, config.initial_acceleration}};
     Mean squares;
     if (even_) squares += even_->lanes().smoothed_error(motion);
     std::size_t scans = 0;
@@ -173,12 +176,13 @@ FoundGains best_of_order(const Judge& judge, int order) {
       [&](double index) { return judge.expected_of(tracking_index_gains(order, index)); });
   const Gains start = tracking_index_gains(order, on.at);
   if (order == 0) return {start, on.cost};
-  const FoundGains off = least_cost_near(
-      start, [&](const Gains& gains) { return judge.expected_of(gains); });
+  const FoundGains off =
+      least_cost_near(start, [&](const Gains& gains) { return judge.expected_of(gains); });
   return off.cost < on.cost ? off : FoundGains{start, on.cost};
 }
 
-/// The best filter that starts as Kalman's: by its index first, then by what it assumes of the start.
+/// The best filter that starts as Kalman's: by its index first, then by what it assumes of the
+/// start.
 template <int Order>
 FoundGains best_kalman_like(const Judge& judge) {
   constexpr int kStarts = 8, kSections = 3;

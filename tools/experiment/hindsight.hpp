@@ -14,8 +14,8 @@
 
 namespace ghtrack {
 
-/// What errors of position may be held against, on the same runs: RMSE over the scans from an object's
-/// third detection on [m]. Absent where there is nothing to tell it from.
+/// What errors of position may be held against, on the same runs: RMSE over the scans from an
+/// object's third detection on [m]. Absent where there is nothing to tell it from.
 struct Hindsight {
   std::optional<double> raw;  // of the detections themselves
 
@@ -49,8 +49,8 @@ inline constexpr std::array<Reference, 4> kReferences = {
 /// The objects of one kind in all runs that are judged.
 using ObjectsOfRuns = std::vector<const LabelledObject*>;
 
-/// The sensor that filters are designed for, as in TrackerDesign: the one that tells most in a given
-/// time. @pre there is one
+/// The sensor that filters are designed for, as in TrackerDesign: the one that tells most in a
+/// given time. @pre there is one
 SensorTraits best_sensor(std::span<const SensorConfig> sensors);
 
 /// The gains of an order, 0 to 2, with the least expected error.
@@ -69,7 +69,8 @@ Hindsight in_hindsight(const ObjectsOfRuns& objects, std::span<const SensorConfi
                        const RunMetricsOptions& scoring, const std::function<void()>& on_step);
 
 /// Those to be recorded for add_hindsight(): all objects of a scene, or none where they would be
-/// looked at more often than 20 000 times, so that the memory of a run does not grow with its length.
+/// looked at more often than 20 000 times, so that the memory of a run does not grow with its
+/// length.
 std::vector<ObjectId> objects_for_hindsight(const WorldScene& scene, std::size_t objects);
 
 /// Writes into the report of a run what each object's error may be held against.

@@ -202,8 +202,7 @@ bool take_record(JournalInput& input, Record& record) {
 }
 
 /// Checks a record before anything is made of it: its check sum says only that it was written so.
-void check(const Record& record, const Campaign& campaign, std::size_t size,
-           const fs::path& path) {
+void check(const Record& record, const Campaign& campaign, std::size_t size, const fs::path& path) {
   const auto run = std::to_string(record.run);
   if (record.run >= static_cast<std::uint64_t>(campaign.cells[record.cell].runs())) {
     refuse(path, "holds a run " + run + " that the campaign does not have");

@@ -36,8 +36,8 @@ struct LabelledObject {
 using LabelledRuns = std::vector<std::vector<LabelledObject>>;
 
 /// The first objects of each regime, at least one: as many as make about so many scans of an object
-/// in a run. What is searched for or averaged over again and again need not see the whole of a large
-/// swarm.
+/// in a run. What is searched for or averaged over again and again need not see the whole of a
+/// large swarm.
 std::vector<ObjectId> some_objects(const Trial& trial, std::size_t scans);
 
 /// Takes down what each scan says of some objects.
@@ -57,7 +57,7 @@ class LabelledObjectRecorder final : public RunObserver {
 
 /// Those of these objects that are detected at all in a run, by id.
 std::vector<LabelledObject> labelled_objects(const Trial& trial, int run, const RunTruth& truth,
-                                        const std::vector<ObjectId>& wanted);
+                                             const std::vector<ObjectId>& wanted);
 
 /// Errors count from so many detections on: some filters have no acceleration before.
 inline constexpr int kFirstDetections = 3;
@@ -95,8 +95,8 @@ SquaredErrors measured_errors(Filter filter, const LabelledObject& object);
 /// @param filter  has not started yet
 SquaredErrors expected_errors(GainFilter<2> filter, const LabelledObject& object);
 
-/// The same for sensors of any kind, with their bias and outliers; nothing is added where errors have
-/// no variance. @param errors  of the sensors, by ObjectScan::sensor
+/// The same for sensors of any kind, with their bias and outliers; nothing is added where errors
+/// have no variance. @param errors  of the sensors, by ObjectScan::sensor
 SquaredErrors expected_errors(const Filter& filter, const LabelledObject& object,
                               std::span<const SensorConfig> sensors,
                               std::span<const std::vector<ErrorPart>> errors);

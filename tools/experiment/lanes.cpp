@@ -85,7 +85,8 @@ Mean Lanes::smoothed_error(const LaneMotion& motion) const {
                            order >= 2 ? motion.spread.a * motion.spread.a : 0.0};
   std::vector<double> x(measured_.size()), v(x.size()), a(x.size());  // lane by lane of each scan
   std::copy_n(measured_.begin(), count_, x.begin());
-  std::vector<Matrix3> gains(scans_.size(), Matrix3::Identity());  // from each scan to the one before
+  std::vector<Matrix3> gains(scans_.size(),
+                             Matrix3::Identity());  // from each scan to the one before
   double noise_interval = 0.0;
   AxisCovariance<double> noise{};
   for (std::size_t i = 1; i < scans_.size(); ++i) {

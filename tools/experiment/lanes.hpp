@@ -19,14 +19,15 @@ struct LaneMotion {
 };
 
 /// Objects that were seen at the same times with the same errors, alike on both axes. What a filter
-/// makes of them is linear and differs by their places alone: its gains are found once, and every axis
-/// of every object goes through it in a lane, side by side.
+/// makes of them is linear and differs by their places alone: its gains are found once, and every
+/// axis of every object goes through it in a lane, side by side.
 class Lanes {
  public:
   /// A scan as all of them had it.
   struct Scan {
-    double interval = 0.0;                   // since the one before [s]
-    std::optional<double> variance = {};     // of a measurement on an axis [m²]; none: nothing was seen
+    double interval = 0.0;  // since the one before [s]
+    std::optional<double> variance =
+        {};  // of a measurement on an axis [m²]; none: nothing was seen
   };
 
   /// One object from its first detection on; nothing if its axes differ, or it was hardly seen.

@@ -126,8 +126,8 @@ double id_switches(const SubjectReport& s) {
 double false_tracks(const SubjectReport& s) { return of_scene(s, s.run.total.false_tracks); }
 
 constexpr std::array<MetricInfo, kMetrics> kInfo = {{
-    {"rmse", "RMSE of position", "m", "root mean square of the position's error",
-     Better::kLess, Average::kRootMeanSquare, rmse_position, predicted_rmse, true},
+    {"rmse", "RMSE of position", "m", "root mean square of the position's error", Better::kLess,
+     Average::kRootMeanSquare, rmse_position, predicted_rmse, true},
     {"rmse_at_clock", "RMSE at the wall clock", "m",
      "root mean square of the position's error as it was known at the time of each scan, predicted "
      "from what had arrived by then; where sensors have a latency",
@@ -151,8 +151,8 @@ constexpr std::array<MetricInfo, kMetrics> kInfo = {{
     {"tracked", "Tracked", "1", "share of the scans in which the object was followed",
      Better::kMore, Average::kShare, tracked},
     {"track_losses", "Track losses", "1",
-     "times that an object's track ended, lost it or was replaced", Better::kLess,
-     Average::kCount, track_losses},
+     "times that an object's track ended, lost it or was replaced", Better::kLess, Average::kCount,
+     track_losses},
     {"gospa", "GOSPA", "m", "mean distance between the sets of objects and of tracks",
      Better::kLess, Average::kPositiveMean, gospa_of_scene},
     {"id_switches", "ID switches", "1", "times that an object's identity changed", Better::kLess,

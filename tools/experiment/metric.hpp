@@ -17,7 +17,8 @@ enum class Metric {
   kRmseAtClock,   // of what was known at the wall clock, where sensors have a latency [m]
   kRmseVelocity,  // [m/s]
   kPeakError,     // max |e| [m]
-  kSettlingTime,  // from an object's first scan until its error first stays small, or to its last [s]
+  kSettlingTime,  // from an object's first scan until its error first stays small, or to its last
+                  // [s]
   kSettled,       // share of the objects whose error ever stays small
   kLag,           // mean of (truth − estimate) along the velocity [m]
   kMai,           // mean absolute innovation [m]
@@ -48,7 +49,7 @@ struct MetricInfo {
   std::string_view unit;     // "m"; "1" for pure numbers
   std::string_view meaning;  // one clause
   Better better = Better::kLess;
-  Average average = Average::kMean;  // over the runs
+  Average average = Average::kMean;                     // over the runs
   double (*value)(const SubjectReport&) = nullptr;      // of a run; NaN if it did not occur
   double (*predicted)(const SubjectReport&) = nullptr;  // by closed forms; null: there are none
   bool is_error = false;  // of an object that is followed: a run in which it is lost tells another

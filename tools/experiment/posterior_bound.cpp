@@ -18,8 +18,8 @@ using Matrix = MotionLaw::Matrix;
 using Information = Eigen::Matrix4d;  // of position and velocity
 
 /// How much the errors of a sensor tell of what they are added to, beside normal ones of its
-/// covariance: a pair of Student's t (ν + 2) / (ν + 4) (Lange, Little & Taylor 1989), an outlier that
-/// says that it is one 1 / scale².
+/// covariance: a pair of Student's t (ν + 2) / (ν + 4) (Lange, Little & Taylor 1989), an outlier
+/// that says that it is one 1 / scale².
 double sharpness(const SensorConfig& sensor) {
   const double p = sensor.outlier_probability;
   const double dof = sensor.student_dof.value_or(0.0);
@@ -33,8 +33,7 @@ std::optional<Information> information_of(const SensorConfig& sensor, const Trut
   if (!detection) return std::nullopt;
   Information sum = Information::Zero();
   if (detection->measured) {
-    const auto h =
-        predicted(detection->measured->model, truth.position, truth.velocity).jacobian;
+    const auto h = predicted(detection->measured->model, truth.position, truth.velocity).jacobian;
     const Eigen::MatrixXd sharp = detection->measured->r.inverse();
     sum = h.transpose() * sharp * h;
   } else {
@@ -51,7 +50,8 @@ class AverageInformation {
     for (const LabelledObject* object : objects) {
       for (const ObjectScan& scan : object->scans) {
         if (!scan.detection) continue;
-        const auto told = information_of(sensors[static_cast<std::size_t>(scan.sensor)], scan.truth);
+        const auto told =
+            information_of(sensors[static_cast<std::size_t>(scan.sensor)], scan.truth);
         if (!told) continue;
         auto& [sum, count] = of_scans_[key(*object, scan)];
         sum = count == 0 ? *told : Information(sum + *told);

@@ -35,8 +35,7 @@ class RunSet {
 /// Numbers of all runs of a cell, turned around: by their place in the layout, then by run.
 class ResultColumns {
  public:
-  ResultColumns(NumberFile numbers, std::size_t runs)
-      : numbers_(std::move(numbers)), runs_(runs) {}
+  ResultColumns(NumberFile numbers, std::size_t runs) : numbers_(std::move(numbers)), runs_(runs) {}
 
   /// One number of every run.
   std::vector<double> at(std::size_t place) const;
@@ -50,8 +49,8 @@ class ResultColumns {
 class Results {
  public:
   /// @param folder  where there is room for as much as the results are, and once more
-  explicit Results(const Campaign& campaign, std::filesystem::path folder =
-                                                 std::filesystem::temp_directory_path());
+  explicit Results(const Campaign& campaign,
+                   std::filesystem::path folder = std::filesystem::temp_directory_path());
 
   const RunSet& runs() const { return runs_; }
   bool has(std::size_t cell, int run) const { return runs_.has(cell, run); }

@@ -51,8 +51,8 @@ class SharedTruth {
     first_run_ = first_run;
   }
 
-  /// The truth of a run: recorded if all runs have it in common, if it stays, or if it is to be gone
-  /// through more than once; and if it fits into memory.
+  /// The truth of a run: recorded if all runs have it in common, if it stays, or if it is to be
+  /// gone through more than once; and if it fits into memory.
   RunTruth of_run(int run, bool is_reused) const;
 
  private:

@@ -13,9 +13,9 @@ namespace ghtrack {
 namespace {
 
 constexpr double kStudentConfidence =
-    0.965;                            // of Student's intervals of what is skewed: see Average
-constexpr double kFew = 20.0;         // events in all that hardly tell how they scatter
-constexpr double kMedianSlack = 0.02;            // five runs hold the median with 93.75 %
+    0.965;                             // of Student's intervals of what is skewed: see Average
+constexpr double kFew = 20.0;          // events in all that hardly tell how they scatter
+constexpr double kMedianSlack = 0.02;  // five runs hold the median with 93.75 %
 constexpr double kNormal95 = 1.959963984540054;  // two-sided quantile of the normal distribution
 
 double mean(std::span<const double> values) {
@@ -86,8 +86,8 @@ std::optional<Interval> median_interval(std::vector<double> values, double confi
   return Interval{std::lerp(at(d - 1), at(d), share), std::lerp(at(n - d), at(n - d - 1), share)};
 }
 
-/// The Poisson mean of which so many events or fewer have this probability, one half of that of just
-/// so many counted.
+/// The Poisson mean of which so many events or fewer have this probability, one half of that of
+/// just so many counted.
 double poisson_mean(double events, double probability) {
   const auto at_most = [](double k, double mu) {
     return k < 0.0 ? 0.0 : 1.0 - chi_square_probability(2.0 * mu, 2.0 * k + 2.0);
@@ -101,14 +101,14 @@ double poisson_mean(double events, double probability) {
   return 0.5 * (low + high);
 }
 
-/// Of a Poisson mean from a few events in all, by the mid-P limits (Cohen & Yang 1994), which hold it
-/// nearly as often as they say; of none it ends at 3.0, the rule of three.
+/// Of a Poisson mean from a few events in all, by the mid-P limits (Cohen & Yang 1994), which hold
+/// it nearly as often as they say; of none it ends at 3.0, the rule of three.
 Interval few_events_interval(double events) {
   return {events > 0.0 ? poisson_mean(events, 0.975) : 0.0, poisson_mean(events, 0.025)};
 }
 
-/// Of a Poisson mean by the score, (m − μ)² = q² φ μ / n, with φ the runs' variance over their mean;
-/// of few events no narrower than their number alone allows.
+/// Of a Poisson mean by the score, (m − μ)² = q² φ μ / n, with φ the runs' variance over their
+/// mean; of few events no narrower than their number alone allows.
 Interval count_interval(std::span<const double> counts) {
   constexpr double kLeastScatter = 0.05;  // φ where all runs agree, unless events are few
   const auto runs = static_cast<double>(counts.size());
@@ -324,8 +324,8 @@ PairedDifference paired_difference(std::span<const double> a, std::span<const do
     scale = std::sqrt(left / pairs) + std::sqrt(right / pairs);
     if (!(scale > 0.0)) scale = 1.0;
   }
-  result.value = (average == Average::kMedian ? sample_quantile(differences, 0.5)
-                                              : mean(differences)) / scale;
+  result.value =
+      (average == Average::kMedian ? sample_quantile(differences, 0.5) : mean(differences)) / scale;
   if (result.pairs < kFewestRuns) return result;
   if (average == Average::kMedian) {
     result.interval = median_interval(differences, confidence, 0.0);
@@ -333,8 +333,8 @@ PairedDifference paired_difference(std::span<const double> a, std::span<const do
   }
   const double half = student_half_width(differences, confidence) / scale;
   result.interval = Interval{result.value - half, result.value + half};
-  const bool is_rare = average == Average::kCount || average == Average::kRate ||
-                       average == Average::kShare;
+  const bool is_rare =
+      average == Average::kCount || average == Average::kRate || average == Average::kShare;
   const auto differing =
       std::count_if(differences.begin(), differences.end(), [](double d) { return d != 0.0; });
   if (is_rare && differing > 0 && !signs_can_tell(differing, confidence)) {

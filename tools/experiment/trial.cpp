@@ -153,6 +153,8 @@ std::vector<double> Trial::scores(int run, TruthSource& truth, RunObservers obse
   return scores;
 }
 
-std::vector<double> Trial::scores(int run) const { return scores(run, *truth_of(run).source(), {}); }
+std::vector<double> Trial::scores(int run) const {
+  return scores(run, *truth_of(run).source(), {});
+}
 
 }  // namespace ghtrack

@@ -16,7 +16,7 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kMostRuns = 50;             // that a cell is tuned on
+constexpr int kMostRuns = 50;                       // that a cell is tuned on
 constexpr std::size_t kMostTrainingScans = 50'000;  // of them all
 
 LabelledRuns training_runs(const Trial& trial, const SharedTruth& truth, int runs) {
@@ -52,8 +52,8 @@ void tune_cells(Campaign& campaign, std::span<const std::size_t> cells, int jobs
     const WorldScene& scene = campaign.cells[cells[i]].scene;
     const Trial trial(scene, on_step);
     const int runs = std::min(scene.compare.runs, kMostRuns);
-    filters[i] = tuned_filters(trial, training_runs(trial, *truth[cells[i]], runs),
-                               scene.compare.tuned);
+    filters[i] =
+        tuned_filters(trial, training_runs(trial, *truth[cells[i]], runs), scene.compare.tuned);
   });
   for (std::size_t i = 0; i < cells.size(); ++i) {
     CompareConfig& compare = campaign.cells[cells[i]].scene.compare;

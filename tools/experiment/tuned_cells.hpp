@@ -14,8 +14,8 @@ namespace ghtrack {
 /// Which cells of a campaign are to be tuned, by index.
 std::vector<std::size_t> untuned_cells(const Campaign& campaign);
 
-/// Tunes some cells: adds the filters that `compare.tuned` asks for to those that are compared. Each
-/// cell is tuned on runs of its own, of which none is compared.
+/// Tunes some cells: adds the filters that `compare.tuned` asks for to those that are compared.
+/// Each cell is tuned on runs of its own, of which none is compared.
 /// @param cells    by index
 /// @param jobs     threads; the outcome does not depend on them
 /// @param on_step  called again and again by all threads; may throw to give up

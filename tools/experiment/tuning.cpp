@@ -93,8 +93,8 @@ struct Candidate {
 /// Tunes and judges one regime.
 class RegimeTuner {
  public:
-  RegimeTuner(const Trial& trial, const std::string& regime, LabelledRuns training, LabelledRuns judging,
-              const TuningOptions& options)
+  RegimeTuner(const Trial& trial, const std::string& regime, LabelledRuns training,
+              LabelledRuns judging, const TuningOptions& options)
       : trial_(trial),
         sensor_(best_sensor(trial.scene().sensors)),
         regime_(regime),
@@ -307,9 +307,9 @@ class AllTuner {
     const std::optional<Gains> best = best_gains(objects, trial_.scene().sensors, trial_.scoring(),
                                                  order, [this] { trial_.step(); });
     if (best) return config_of(*best);
-    return config_of(
-        least_cost(stable_gains(order), [&](const Gains& gains) { return cost(config_of(gains)); })
-            .gains);
+    return config_of(least_cost(stable_gains(order), [&](const Gains& gains) {
+                       return cost(config_of(gains));
+                     }).gains);
   }
 
   struct Kalman {
@@ -332,8 +332,8 @@ class AllTuner {
       for (const double switching : {0.02, 0.1}) {
         ImmConfig config;
         config.switching = switching;
-        for (const auto& [name, noise] :
-             {std::pair{"calm", best.process_noise / ratio}, {"lively", best.process_noise * ratio}}) {
+        for (const auto& [name, noise] : {std::pair{"calm", best.process_noise / ratio},
+                                          {"lively", best.process_noise * ratio}}) {
           config.filters[name] = best.order == 1 ? single<1>(noise) : single<2>(noise);
         }
         const double found = cost(config);

@@ -27,14 +27,14 @@ struct TuningOptions {
 /// How good a filter turned out to be. All of them are told which detection is whose.
 struct JudgedGains {
   std::string origin;  // "tuned", a design rule, "scene" for its own, or a filter named in it
-  std::string filter;            // "gh", "ghk", …
-  std::string gains;             // "g=0.4 h=0.1"
+  std::string filter;  // "gh", "ghk", …
+  std::string gains;   // "g=0.4 h=0.1"
   double trained_rmse = 0.0;     // on the seeds that gains were tuned on [m]
   double rmse = 0.0;             // on the other ones [m]
   std::optional<Interval> ci95;  // of it
   double difference = 0.0;       // to the recommended one, paired by runs [m]
   std::optional<Interval> difference_ci95;
-  std::string text;              // as a scene says it; empty if it is not a filter of its own
+  std::string text;  // as a scene says it; empty if it is not a filter of its own
 };
 
 /// What was found for one regime.
@@ -59,10 +59,11 @@ struct Tuning {
   std::vector<GainSurface> surfaces;
 };
 
-/// Tunes filters for every regime of a scene, on runs of which no campaign is made, and judges them on
-/// others still: g, g-h and g-h-k gains, tracking indices and Kalman filters, beside interacting
-/// models, designs by rule and what the scene names. What is minimised is the mean squared error of position from an object's third
-/// detection on; a table of least-squares gains serves the start, as in a tracker.
+/// Tunes filters for every regime of a scene, on runs of which no campaign is made, and judges them
+/// on others still: g, g-h and g-h-k gains, tracking indices and Kalman filters, beside interacting
+/// models, designs by rule and what the scene names. What is minimised is the mean squared error of
+/// position from an object's third detection on; a table of least-squares gains serves the start,
+/// as in a tracker.
 /// @param on_step  called again and again by all threads; may throw to give up
 /// @throws std::invalid_argument for a rule that has no family of gains
 Tuning tune(
@@ -70,8 +71,8 @@ Tuning tune(
     const std::function<void()>& on_step = [] {});
 
 /// Filters for all objects of a scene, each with what is best on some runs: g-h and g-h-k gains by
-/// their expected error, Kalman filters of both kinds by their process noise, interacting ones around
-/// the best of these.
+/// their expected error, Kalman filters of both kinds by their process noise, interacting ones
+/// around the best of these.
 /// @return by name: "tuned g-h", "tuned g-h-k", "tuned Kalman", "tuned IMM"
 std::map<std::string, FilterConfig> tuned_filters(const Trial& trial, const LabelledRuns& runs,
                                                   std::span<const TunedKind> kinds);

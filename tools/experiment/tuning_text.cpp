@@ -73,10 +73,10 @@ std::string to_table(const Tuning& tuning, std::size_t width) {
       "judging\n",
       tuning.runs, tuning.runs);
   for (const TunedRegime& regime : tuning.regimes) {
-    text += fmt::format("\n{}: acceleration {:.3g} m/s² per axis, tracking index {:.3g}, correlated "
-                        "over {:.2g} s\n",
-                        regime.regime, regime.acceleration, regime.tracking_index,
-                        regime.correlation_time);
+    text += fmt::format(
+        "\n{}: acceleration {:.3g} m/s² per axis, tracking index {:.3g}, correlated "
+        "over {:.2g} s\n",
+        regime.regime, regime.acceleration, regime.tracking_index, regime.correlation_time);
     std::vector<const JudgedGains*> ranking;
     for (const JudgedGains& judged : regime.judged) ranking.push_back(&judged);
     std::stable_sort(ranking.begin(), ranking.end(),
@@ -109,8 +109,10 @@ std::string to_table(const Tuning& tuning, std::size_t width) {
   }
   return text +
          "\n* recommended: the least error in judging, or the scene's own if none is better for\n"
-         "  sure; to recommended: difference to that; best fixed gains: chosen after judging, by their\n"
-         "  expected error; posterior CRLB: below which no filter can be, where the motion is random;\n"
+         "  sure; to recommended: difference to that; best fixed gains: chosen after judging, by "
+         "their\n"
+         "  expected error; posterior CRLB: below which no filter can be, where the motion is "
+         "random;\n"
          "  smoother: knows later detections, too.\n"
          "  ± half of a 95 % interval\n";
 }

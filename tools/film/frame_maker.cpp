@@ -11,8 +11,7 @@ FrameMaker::FrameMaker(const WorldScene& scene, const std::vector<ObjectInfo>& o
                        const Shown& shown, OnFrame on_frame)
     : shown_(shown),
       on_frame_(std::move(on_frame)),
-      scores_(shown.count,
-              RunningScore(scoring_for(traits_of(scene.sensors)).gospa(), objects)) {
+      scores_(shown.count, RunningScore(scoring_for(traits_of(scene.sensors)).gospa(), objects)) {
   frame_.panels.resize(shown.count);
 }
 

@@ -83,7 +83,8 @@ void RunningScore::add(const TruthSnapshot& truth, const TrackSnapshot& snapshot
   }
   for (const PointMatch& match : all.matches) {
     const double squared = match.distance * match.distance;
-    const auto object = static_cast<std::size_t>(objects.ids[static_cast<std::size_t>(match.truth)]);
+    const auto object =
+        static_cast<std::size_t>(objects.ids[static_cast<std::size_t>(match.truth)]);
     squared_errors_.add(squared);
     squared_errors_by_regime_.at(regime_of_.at(object)).add(squared);
   }

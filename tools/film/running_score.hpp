@@ -41,11 +41,11 @@ class RunningScore {
 
  private:
   GospaOptions options_;
-  Mean gospa_;           // [m]
-  Mean squared_errors_;  // [m²]
-  Mean missed_;          // 1: a target without a track, 0: with one
-  std::vector<std::string> regimes_;                 // each once
-  std::vector<std::size_t> regime_of_;               // by object
+  Mean gospa_;                                  // [m]
+  Mean squared_errors_;                         // [m²]
+  Mean missed_;                                 // 1: a target without a track, 0: with one
+  std::vector<std::string> regimes_;            // each once
+  std::vector<std::size_t> regime_of_;          // by object
   std::vector<Mean> squared_errors_by_regime_;  // [m²]
   std::vector<render::Pairing> pairings_;
 };

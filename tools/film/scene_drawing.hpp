@@ -26,9 +26,9 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, Tru
                                 std::vector<render::PanelDrawing> panels,
                                 const std::function<void()>& on_step);
 
-/// Adds close-ups of the first targets where errors would be far below a pixel of the whole picture,
-/// unless the scene says where to look or shows a crowd. They have no corner of their own: they are
-/// to lie where they hide nobody.
+/// Adds close-ups of the first targets where errors would be far below a pixel of the whole
+/// picture, unless the scene says where to look or shows a crowd. They have no corner of their own:
+/// they are to lie where they hide nobody.
 /// @param truth    gone through if there are any
 /// @param on_step  called now and then meanwhile; may throw to give up
 void magnify_small_errors(const WorldScene& scene, TruthSource& truth,

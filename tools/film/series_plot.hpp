@@ -1,8 +1,8 @@
 #pragma once
 
 #include "scenes/schema/series.hpp"
-#include "tools/run/series.hpp"
 #include "tools/render/plot.hpp"
+#include "tools/run/series.hpp"
 
 namespace ghtrack::film {
 

@@ -104,9 +104,8 @@ std::vector<Pair> overlapping_pairs(std::span<const Box> truth, std::span<const 
     widest = std::max(widest, box.width);
     highest = std::max(highest, box.height);
   }
-  const Rows rows(static_cast<int>(tracks.size()), highest, [&](int i) {
-    return Eigen::Vector2d(tracks[i].left, tracks[i].top);
-  });
+  const Rows rows(static_cast<int>(tracks.size()), highest,
+                  [&](int i) { return Eigen::Vector2d(tracks[i].left, tracks[i].top); });
   std::vector<Pair> pairs;
   for (int i = 0; i < static_cast<int>(truth.size()); ++i) {
     const std::size_t first = pairs.size();

@@ -36,8 +36,8 @@ void extrapolate(Matrix6& p, double dt) {
   p.middleCols<2>(2) += dt * p.rightCols<2>();
 }
 
-/// (I − K H) P (I − K H)ᵀ + K R Kᵀ. Rows and columns are taken on their own: with one for the other,
-/// what rounding has made unsymmetric in P would grow by I + K H.
+/// (I − K H) P (I − K H)ᵀ + K R Kᵀ. Rows and columns are taken on their own: with one for the
+/// other, what rounding has made unsymmetric in P would grow by I + K H.
 void correct(Matrix6& p, const Gain& gain, const Eigen::Matrix2d& r) {
   const Gain columns = p.leftCols<2>();
   const Eigen::Matrix<double, 2, 6> rows = p.topRows<2>();

@@ -20,14 +20,14 @@ struct SensedDetection {
   const Detection& detection;
 };
 
-/// The error to be expected of a filter over all measurement noise, when it gets detections at these
-/// instants and of this accuracy. A shadow of the filter is shown what the sensor measures on average,
-/// the truth with its bias: what is left of its error is the mean error, the lag. What noise it lets
-/// through follows from the gain K by which it answers a measurement:
+/// The error to be expected of a filter over all measurement noise, when it gets detections at
+/// these instants and of this accuracy. A shadow of the filter is shown what the sensor measures on
+/// average, the truth with its bias: what is left of its error is the mean error, the lag. What
+/// noise it lets through follows from the gain K by which it answers a measurement:
 ///   P ← (I − K H) F P Fᵀ (I − K H)ᵀ + K R Kᵀ
-/// Exact for every filter whose gains do not depend on the noise, in any motion and at any times, from
-/// the start on: with the steady gains, P tends to the variance reduction factors, and the lag under
-/// a lasting acceleration to (1 − g) a T² / h.
+/// Exact for every filter whose gains do not depend on the noise, in any motion and at any times,
+/// from the start on: with the steady gains, P tends to the variance reduction factors, and the lag
+/// under a lasting acceleration to (1 − g) a T² / h.
 ///
 /// Filters whose gains do depend on it (several models, Huber limits, motions that are no
 /// polynomials) are told by sixteen shadows instead, which are shown detections with noise of their
@@ -35,13 +35,13 @@ struct SensedDetection {
 /// heavy tails.
 class ExpectedError {
  public:
-  /// Where the errors of some sensor are not normal, only shadows know the length of residuals, also
-  /// of those of other sensors, as the prediction is not normal either.
+  /// Where the errors of some sensor are not normal, only shadows know the length of residuals,
+  /// also of those of other sensors, as the prediction is not normal either.
   enum class Noise { kNormal, kOther };
 
   using Vector6 = Eigen::Matrix<double, 6, 1>;  // position, velocity, acceleration on x and y
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  using Gain = Eigen::Matrix<double, 6, 2>;     // K: what a residual adds to each
+  using Gain = Eigen::Matrix<double, 6, 2>;  // K: what a residual adds to each
   static constexpr std::size_t kShadows = 16;
 
   /// @param fresh  waits for its first measurement, which is this one
@@ -70,9 +70,9 @@ class ExpectedError {
       std::optional<double> memory = {};                     // as below, of the residuals
     };
     std::optional<Innovation> innovation = {};  // of the latest residual, if there is one
-    /// Σ ρ² of the errors of the position on x at the latest scan with those at all scans so far: how
-    /// much less than one independent error it tells. 1 where each error forgets the one before.
-    /// Absent of filters that shadows stand for.
+    /// Σ ρ² of the errors of the position on x at the latest scan with those at all scans so far:
+    /// how much less than one independent error it tells. 1 where each error forgets the one
+    /// before. Absent of filters that shadows stand for.
     std::optional<double> memory = {};
 
     /// Squared errors of the shadows, where they tell: how far their mean may be from what is to be
@@ -94,9 +94,9 @@ class ExpectedError {
   Value value_of_shadows(const TruthState& truth) const;
 
   bool is_known_ = true;
-  double time_;        // [s]
+  double time_;  // [s]
   int updates_ = 1;
-  Filter filter_;      // shown the truth
+  Filter filter_;  // shown the truth
   Matrix6 covariance_ = Matrix6::Zero();
   Matrix6 echoes_ = Matrix6::Zero();  // Σ u uᵀ over the scans, u = P e_x / √P_xx carried on
   Matrix6 residual_echoes_ = Matrix6::Zero();  // the same of u = (P' Hᵀ − K S) e_x / √S_xx
@@ -106,12 +106,13 @@ class ExpectedError {
   std::uint64_t key_;
 };
 
-/// Whether the gains of a filter depend on times and accuracies alone, so that what is expected of it
-/// is exact; else shadows tell.
+/// Whether the gains of a filter depend on times and accuracies alone, so that what is expected of
+/// it is exact; else shadows tell.
 bool has_own_gains(const Filter& filter);
 
 /// E|r| of a normally distributed vector in the plane, by
-///   |r| = ∫₀^∞ (1 − e^(−t r²)) t^(−3/2) dt / (2 √π),  E e^(−t r²) = e^(−t m² / (1 + 2 t s²)) / √(1 + 2 t s²)
+///   |r| = ∫₀^∞ (1 − e^(−t r²)) t^(−3/2) dt / (2 √π),  E e^(−t r²) = e^(−t m² / (1 + 2 t s²)) / √(1
+///   + 2 t s²)
 /// per axis.
 double expected_length(const Vec2& mean, const Eigen::Matrix2d& covariance);
 

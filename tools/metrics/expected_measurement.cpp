@@ -17,8 +17,8 @@ double mean_factor(std::span<const ErrorPart> errors) {
   return sum;
 }
 
-/// A position from range and bearing is unbiased over normal noise of the bearing, which shortens it
-/// by the factor e^(−σ²/2); without that noise it is as much too long.
+/// A position from range and bearing is unbiased over normal noise of the bearing, which shortens
+/// it by the factor e^(−σ²/2); without that noise it is as much too long.
 Vec2 averaged(const Radar& radar, std::span<const ErrorPart> errors, const Vec2& site,
               const Vec2& position) {
   const double variance = radar.noise().bearing * radar.noise().bearing;
@@ -100,8 +100,8 @@ const Model& without_noise(const Model& model) {
   return model;
 }
 
-/// Student's t as normal errors of variance ν / χ²_ν, in parts of the distribution of χ²: closer where
-/// it is small and the errors wide. The variance of a part is the mean over it, exactly:
+/// Student's t as normal errors of variance ν / χ²_ν, in parts of the distribution of χ²: closer
+/// where it is small and the errors wide. The variance of a part is the mean over it, exactly:
 /// E[ν/χ²_ν; χ²_ν < x] = ν / (ν − 2) P(χ²_{ν−2} < x).
 std::vector<ErrorPart> student_parts(double dof) {
   constexpr int kParts = 16;

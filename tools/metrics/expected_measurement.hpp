@@ -20,8 +20,8 @@ struct ErrorPart {
 /// two degrees of freedom or fewer.
 std::optional<std::vector<ErrorPart>> error_parts(const SensorConfig& sensor);
 
-/// Whether the errors of a sensor are normally distributed: no outliers, no heavy tails, no rounding
-/// to cells that are large beside the noise. @param errors  of the sensor
+/// Whether the errors of a sensor are normally distributed: no outliers, no heavy tails, no
+/// rounding to cells that are large beside the noise. @param errors  of the sensor
 bool is_normal(const SensorConfig& sensor, std::span<const ErrorPart> errors);
 
 /// A detection of an object at this place without noise, with the sensor's bias, and not rounded.

@@ -127,7 +127,8 @@ void Following::begin_late(const StepRecord& late, const std::vector<int>& track
   std::vector<std::size_t> made;  // detections of objects that nothing followed
   for (std::size_t i = 0; i < scan.detections.size(); ++i) {
     const ObjectId origin = late.observation.origins[i];
-    if (origin != kClutterOrigin && tracks_of[static_cast<std::size_t>(origin)] == 0) made.push_back(i);
+    if (origin != kClutterOrigin && tracks_of[static_cast<std::size_t>(origin)] == 0)
+      made.push_back(i);
   }
   if (begun.size() > 1 || made.size() != 1) {
     unforeseen_.insert(begun.begin(), begun.end());
@@ -155,8 +156,8 @@ void Following::advance(std::optional<ExpectedError>& error, const Moment& momen
   if (error) {
     error->advance(moment.truth, moment.time, used);
   } else if (used) {
-    error.emplace(theory_->design.filter_for(moment.used->label, moment.sensor), moment.truth, *used,
-                  moment.time, key_of(moment.used->position), noise_);
+    error.emplace(theory_->design.filter_for(moment.used->label, moment.sensor), moment.truth,
+                  *used, moment.time, key_of(moment.used->position), noise_);
   }
 }
 
@@ -172,8 +173,8 @@ void Following::advance(Expected& expected, const Moment& moment) const {
 }
 
 void Following::insert(Expected& expected, const Moment& late) const {
-  const auto place = std::find_if(
-      expected.since.begin(), expected.since.end(), [&](const Moment& other) {
+  const auto place =
+      std::find_if(expected.since.begin(), expected.since.end(), [&](const Moment& other) {
         return std::tie(late.time, late.sensor) < std::tie(other.time, other.sensor);
       });
   expected.since.insert(place, late);
@@ -188,7 +189,7 @@ std::optional<ObjectId> Following::object_of(const TrackEstimate& track) const {
 }
 
 std::optional<ExpectedError::Value> Following::expected(const TrackEstimate& track,
-                                                       const TruthState& truth) const {
+                                                        const TruthState& truth) const {
   const auto found = followed_.find(first_id(track));
   if (found == followed_.end() || !found->second.expected) return std::nullopt;
   const std::optional<ExpectedError>& error = found->second.expected->now;

@@ -36,8 +36,8 @@ class Following {
   /// Goes on to the next scan.
   void update(const StepRecord& record);
 
-  /// A scan has come late and was worked in where it belongs: what is expected follows, if each object
-  /// has one track, which has used the detections of it.
+  /// A scan has come late and was worked in where it belongs: what is expected follows, if each
+  /// object has one track, which has used the detections of it.
   void replay(const StepRecord& late);
 
   /// The object that a track follows.
@@ -79,7 +79,7 @@ class Following {
   std::int64_t scan_ = 0;                       // counts them
   double longest_delay_ = 0.0;                  // of a scan that is replayed [s]
   std::unordered_set<int> live_;                // tracks, where scans are replayed
-  std::unordered_set<int> unforeseen_;          // of them, which began in a way that nobody followed
+  std::unordered_set<int> unforeseen_;  // of them, which began in a way that nobody followed
   ExpectedError::Noise noise_ = ExpectedError::Noise::kNormal;  // of all sensors
   std::unordered_map<int, Followed> followed_;  // live tracks, by the id that they were born with
 };

@@ -60,7 +60,8 @@ void derive(HotaResult& result) {
   result.asspr = mean(result.asspr_at);
 }
 
-/// A pair as two words: both identities, and its value. The end of a scan has identities of its own.
+/// A pair as two words: both identities, and its value. The end of a scan has identities of its
+/// own.
 constexpr std::uint64_t kEndOfScan = ~std::uint64_t{0};
 
 double identities_of(const Pair& pair) {

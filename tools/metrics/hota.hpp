@@ -33,8 +33,8 @@ struct HotaResult {
 /// added; association and localisation are means weighted by the matches.
 HotaResult combine(std::span<const HotaResult> results);
 
-/// The pairs of some scans that compete, by identity. Beyond a megabyte they wait in a file, so that
-/// memory does not grow with their number.
+/// The pairs of some scans that compete, by identity. Beyond a megabyte they wait in a file, so
+/// that memory does not grow with their number.
 class RivalPairs {
  public:
   /// Adds the pairs of a scan, unless there are none.
@@ -54,7 +54,8 @@ class RivalPairs {
 
 /// Counts scan by scan. HOTA's pairing in a scan depends on how well two identities fit over the
 /// whole run, which is known only at the end. Where a pair has no rival it is decided at once; the
-/// pairs of a scan that compete are kept until then. Memory grows with the tables by identity alone.
+/// pairs of a scan that compete are kept until then. Memory grows with the tables by identity
+/// alone.
 class Hota {
  public:
   void add(const MotStep& step);

@@ -110,10 +110,11 @@ ScoreResult score_labels(KittiClass kind, const KittiSource& truth, const KittiS
         selection.tracks.push_back(labelled[*matches[i]].category == kScored);
         continue;
       }
-      const bool is_excused = box.height <= kSmallest + kSimilarityRounding ||
-                              std::ranges::any_of(regions, [&](const MotRow& region) {
-                                return share_within(box, region) > kMostHidden + kSimilarityRounding;
-                              });
+      const bool is_excused =
+          box.height <= kSmallest + kSimilarityRounding ||
+          std::ranges::any_of(regions, [&](const MotRow& region) {
+            return share_within(box, region) > kMostHidden + kSimilarityRounding;
+          });
       selection.tracks.push_back(!is_excused);
     }
     return selection;

@@ -77,10 +77,10 @@ class TruthCounts {
   /// @throws InputError if there is truth but none of it is scored
   void check(const std::string& name) const {
     if (rows_ == 0 || scored_ > 0) return;
-    throw InputError(fmt::format(
-        "{}: error: none of its {} rows is scored under the rules of {} ({}){}", name, rows_,
-        to_string(benchmark_), reasons(),
-        has_classes(benchmark_) ? "; --benchmark none scores every class" : ""));
+    throw InputError(
+        fmt::format("{}: error: none of its {} rows is scored under the rules of {} ({}){}", name,
+                    rows_, to_string(benchmark_), reasons(),
+                    has_classes(benchmark_) ? "; --benchmark none scores every class" : ""));
   }
 
  private:

@@ -33,8 +33,8 @@ std::optional<MotBenchmark> benchmark_named(std::string_view name);
 /// (nine columns), else MOT15.
 MotBenchmark recognise_benchmark(const std::filesystem::path& path, bool has_categories);
 
-/// Scores the boxes of one sequence frame by frame under the rules of a benchmark (the preprocessing
-/// of TrackEval, Luiten & Hoffhues 2020).
+/// Scores the boxes of one sequence frame by frame under the rules of a benchmark (the
+/// preprocessing of TrackEval, Luiten & Hoffhues 2020).
 /// @param on_step  gets each instant with what was scored; may be empty
 /// @throws InputError if there is truth but none of it is scored, or tracks have other classes than
 /// pedestrian

@@ -59,8 +59,8 @@ double tolerance_of(const PointSource& truth, const PointSource& tracks) {
   return shorter > 0.0 ? 0.5 * shorter : 1e-9;
 }
 
-/// Whether an instant that only one side has is to be scored: it lies in a gap of the other side, and
-/// so far from what was scored last that it stands for an instant of the other side.
+/// Whether an instant that only one side has is to be scored: it lies in a gap of the other side,
+/// and so far from what was scored last that it stands for an instant of the other side.
 bool fills_gap(double time, const Side& other, double last_scored, double tolerance) {
   const double period = other.period();
   const double gap = other.time() - other.last_time();
@@ -72,7 +72,9 @@ bool fills_gap(double time, const Side& other, double last_scored, double tolera
 class ClockedTracks {
  public:
   ClockedTracks(PointSource truth, PointSource tracks, double latency)
-      : truth_(std::move(truth)), tracks_(std::move(tracks)), latency_(latency),
+      : truth_(std::move(truth)),
+        tracks_(std::move(tracks)),
+        latency_(latency),
         ahead_(tracks_.next()) {}
 
   std::vector<IdentifiedPoint> next_truth() {
@@ -125,7 +127,7 @@ class ClockedTracks {
 
   PointSource truth_, tracks_;
   double latency_;
-  Points latest_, ahead_;                // of the tracks: known at present, and next
+  Points latest_, ahead_;               // of the tracks: known at present, and next
   std::deque<Points> objects_, known_;  // that are yet to be asked for
 };
 
@@ -133,7 +135,8 @@ class ClockedTracks {
 
 AtClock at_clock(PointSource truth, PointSource tracks, double latency) {
   const double period = truth.period;
-  const auto clocked = std::make_shared<ClockedTracks>(std::move(truth), std::move(tracks), latency);
+  const auto clocked =
+      std::make_shared<ClockedTracks>(std::move(truth), std::move(tracks), latency);
   return {.truth = {[clocked] { return clocked->next_truth(); }, period},
           .tracks = {[clocked] { return clocked->next_tracks(); }, period}};
 }
@@ -155,9 +158,8 @@ ScoreResult score_points(
   while (!truth.at_end() || !tracks.at_end()) {
     const double apart = std::abs(truth.time() - tracks.time());
     const bool truth_first = truth.time() <= tracks.time();
-    const bool later_is_nearer = truth_first
-                                     ? std::abs(truth.next_time() - tracks.time()) < apart
-                                     : std::abs(tracks.next_time() - truth.time()) < apart;
+    const bool later_is_nearer = truth_first ? std::abs(truth.next_time() - tracks.time()) < apart
+                                             : std::abs(tracks.next_time() - truth.time()) < apart;
     if (apart <= tolerance && !later_is_nearer) {
       const double time = truth.time();
       const ScoredSet objects = truth.take();

@@ -25,14 +25,14 @@ AtClock at_clock(PointSource truth, PointSource tracks, double latency);
 /// Scores points. An instant of the truth and one of the tracks are the same if each is the nearest
 /// of the other and they are less than half a period of the quicker file apart.
 ///
-/// An instant without a counterpart between two instants of the other file that follow one another at
-/// its rate is not scored. Those in a gap of the other file are, at that file's rate: objects are
-/// missed, or tracks false.
+/// An instant without a counterpart between two instants of the other file that follow one another
+/// at its rate is not scored. Those in a gap of the other file are, at that file's rate: objects
+/// are missed, or tracks false.
 /// @param on_step  gets each instant with what was scored; may be empty
-ScoreResult score_points(
-    const PointSource& truth, const PointSource& tracks, const ScoreOptions& options,
-    const std::function<void(const Scorer::Step&, const ScoredSet&, const ScoredSet&)>& on_step =
-        {});
+ScoreResult score_points(const PointSource& truth, const PointSource& tracks,
+                         const ScoreOptions& options,
+                         const std::function<void(const Scorer::Step&, const ScoredSet&,
+                                                  const ScoredSet&)>& on_step = {});
 
 /// The same of points in memory, by time.
 ScoreResult score_points(std::span<const IdentifiedPoint> truth,

@@ -10,7 +10,7 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kEnough = 1e-15;  // relative size of a term that ends a sum
+constexpr double kEnough = 1e-15;            // relative size of a term that ends a sum
 constexpr std::int64_t kManyDegrees = 1000;  // from which on four terms beside the normal suffice
 
 /// ln Γ(x) for x > 0: Stirling's series (Abramowitz & Stegun 6.1.41) from 15 on, where what is left
@@ -85,10 +85,10 @@ double student_density(double t, double degrees) {
 /// The quantile of Student's t by the normal one (Abramowitz & Stegun 26.7.5).
 double near_normal_quantile(double z, double degrees) {
   const double z2 = z * z;
-  const double terms[] = {(z2 + 1.0) / 4.0, ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0,
-                          (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0,
-                          ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) /
-                              92160.0};
+  const double terms[] = {
+      (z2 + 1.0) / 4.0, ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0,
+      (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0,
+      ((((79.0 * z2 + 776.0) * z2 + 1482.0) * z2 - 1920.0) * z2 - 945.0) / 92160.0};
   double t = z;
   double power = z;
   for (const double term : terms) {
@@ -123,8 +123,9 @@ double chi_square_quantile(double probability, double degrees) {
   const double spread = 2.0 / (9.0 * degrees);
   const double cube_root = 1.0 - spread + normal_quantile(probability) * std::sqrt(spread);
   // Where the approximation fails, in the lower tail of few degrees, the series' first term serves.
-  double x = cube_root > 0.1 ? degrees * cube_root * cube_root * cube_root
-                             : 2.0 * portable::exp((portable::log(probability) + log_gamma(a + 1.0)) / a);
+  double x = cube_root > 0.1
+                 ? degrees * cube_root * cube_root * cube_root
+                 : 2.0 * portable::exp((portable::log(probability) + log_gamma(a + 1.0)) / a);
   for (int i = 0; i < 50; ++i) {
     const double density =
         0.5 * portable::exp((a - 1.0) * portable::log(x / 2.0) - x / 2.0 - log_gamma(a));

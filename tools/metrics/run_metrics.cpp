@@ -28,16 +28,17 @@ double effective_count(std::int64_t values, double memory) {
 
 /// The 95 % interval of a root mean square that shadows tell: Student's, on the scale of the
 /// logarithm. @param sums  of squares over so many scans, by shadow
-std::optional<Interval> rms_interval(
-    std::span<const ExpectedError::Value::Shadow> sums,
-    std::int64_t scans, double ExpectedError::Value::Shadow::*part) {
+std::optional<Interval> rms_interval(std::span<const ExpectedError::Value::Shadow> sums,
+                                     std::int64_t scans,
+                                     double ExpectedError::Value::Shadow::*part) {
   constexpr auto kCount = static_cast<double>(ExpectedError::kShadows);
   double centre = 0.0, scatter = 0.0;
   for (const auto& sum : sums) centre += sum.*part / kCount;
   for (const auto& sum : sums) scatter += (sum.*part - centre) * (sum.*part - centre);
   if (!(centre > 0.0)) return std::nullopt;
   const double error = std::sqrt(scatter / (kCount - 1.0) / kCount) / centre;
-  const double factor = std::exp(0.5 * student_quantile(0.975, ExpectedError::kShadows - 1) * error);
+  const double factor =
+      std::exp(0.5 * student_quantile(0.975, ExpectedError::kShadows - 1) * error);
   const double root = std::sqrt(centre / static_cast<double>(scans));
   return Interval{root / factor, root * factor};
 }
@@ -68,8 +69,7 @@ RunMetrics::RunMetrics(std::vector<ObjectInfo> objects, const RunMetricsOptions&
       tallies_(objects_.size()),
       following_(objects_.size(), theory),
       latest_errors_(objects_.size()),
-      mot_({options.gospa().cutoff, options.gospa().order}) {
-}
+      mot_({options.gospa().cutoff, options.gospa().order}) {}
 
 void RunMetrics::add_observation(const TruthSnapshot& truth, const Observation& observation) {
   const std::vector<const TruthState*> state_of = states_by_id(truth, objects_.size());
@@ -117,10 +117,9 @@ void RunMetrics::add_known(const TruthSnapshot& truth, const TrackSnapshot& trac
   for (const TruthState& object : truth.objects) {
     ObjectTally& tally = tallies_.at(static_cast<std::size_t>(object.id));
     if (!tally.followed) continue;
-    const auto track =
-        std::find_if(tracks.tracks.begin(), tracks.tracks.end(), [&](const TrackEstimate& one) {
-          return one.id == tally.track && counts_as_output(one);
-        });
+    const auto track = std::find_if(
+        tracks.tracks.begin(), tracks.tracks.end(),
+        [&](const TrackEstimate& one) { return one.id == tally.track && counts_as_output(one); });
     if (track == tracks.tracks.end()) continue;
     tally.doubtful_known.push_back((track->position - object.position).squaredNorm());
     if (tally.ignored == 0) count_doubtful(tally);
@@ -380,8 +379,7 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
   if (tally.nis_count > 0) {
     const bool is_foreseen =
         tally.expected_innovations == tally.nis_count && !std::isnan(tally.nis_memory);
-    const double memory =
-        is_foreseen ? tally.nis_memory : static_cast<double>(tally.nis_count);
+    const double memory = is_foreseen ? tally.nis_memory : static_cast<double>(tally.nis_count);
     report.nis_bounds95 = chi_square_mean_bounds95(effective_count(tally.nis_count, memory), 2.0);
   }
   return report;

@@ -38,63 +38,65 @@ RunMetricsOptions scoring_for(const std::vector<SensorTraits>& sensors);
 
 /// How well one object was followed. Errors are estimate minus truth, of the confirmed or coasting
 /// track that follows the object: the one that last used a detection made by it. A track that lets
-/// RunMetrics::kLost detections of its object in a row go by has lost it when it last used one: what
-/// it says from then on is no error but a loss, and counts as such alone. Values that need data
-/// which did not occur are absent.
+/// RunMetrics::kLost detections of its object in a row go by has lost it when it last used one:
+/// what it says from then on is no error but a loss, and counts as such alone. Values that need
+/// data which did not occur are absent.
 struct ObjectReport {
   ObjectId id = 0;
   std::string name;
   std::string regime;
   std::string filter;  // that led most of the time; empty if no track followed
   std::string gains;
-  std::int64_t scans = 0;                      // in which the object existed
-  std::int64_t tracked = 0;                    // … and a track followed it, not lost
-  std::int64_t detections = 0;                 // made by it
-  std::int64_t detections_used = 0;            // scans in which its track used one of them
-  std::int64_t detections_missed = 0;          // the other scans
-  std::int64_t track_changes = 0;              // times that another track took over
-  std::int64_t track_losses = 0;               // times that its track ended, lost it or was replaced
-  std::optional<double> rmse_position;         // √ mean |e|² [m]
-  std::optional<Interval> rmse_position_ci95;  // 95 % confidence
-  std::optional<double> predicted_rmse;        // √ (mean noise variance + mean |lag|²) [m]
-  std::optional<Interval> predicted_rmse_ci95;  // where shadows tell: see ExpectedError
-  std::optional<double> best_fixed_gains;      // see Hindsight; for the caller to fill in [m]
-  std::optional<double> crlb;                  // the same
-  std::optional<double> smoother;              // the same
-  std::optional<double> rmse_at_clock;         // of what was known at the wall clock [m]
-  std::optional<double> rmse_velocity;         // [m/s]
-  std::optional<double> predicted_velocity;    // its prediction [m/s]
+  std::int64_t scans = 0;               // in which the object existed
+  std::int64_t tracked = 0;             // … and a track followed it, not lost
+  std::int64_t detections = 0;          // made by it
+  std::int64_t detections_used = 0;     // scans in which its track used one of them
+  std::int64_t detections_missed = 0;   // the other scans
+  std::int64_t track_changes = 0;       // times that another track took over
+  std::int64_t track_losses = 0;        // times that its track ended, lost it or was replaced
+  std::optional<double> rmse_position;  // √ mean |e|² [m]
+  std::optional<Interval> rmse_position_ci95;       // 95 % confidence
+  std::optional<double> predicted_rmse;             // √ (mean noise variance + mean |lag|²) [m]
+  std::optional<Interval> predicted_rmse_ci95;      // where shadows tell: see ExpectedError
+  std::optional<double> best_fixed_gains;           // see Hindsight; for the caller to fill in [m]
+  std::optional<double> crlb;                       // the same
+  std::optional<double> smoother;                   // the same
+  std::optional<double> rmse_at_clock;              // of what was known at the wall clock [m]
+  std::optional<double> rmse_velocity;              // [m/s]
+  std::optional<double> predicted_velocity;         // its prediction [m/s]
   std::optional<Interval> predicted_velocity_ci95;  // as that of the position
-  std::optional<double> measurement_rmse;      // of its raw detections [m]
-  std::optional<Vec2> bias;                    // mean error [m]
-  std::optional<double> peak_error;            // max |e| [m]
-  std::optional<double> lag;                   // mean of −e along the velocity [m]
-  std::optional<double> predicted_lag;         // the same of the expected lag [m]
-  std::optional<double> settling_time;         // see RunMetrics::kCalmScans; absent: never [s]
-  double lifetime = 0.0;                       // from its first scan to its last [s]
-  std::optional<double> mai;                   // mean absolute innovation, mean |r| [m]
-  std::optional<double> predicted_mai;         // its prediction [m]
-  std::optional<double> nees;                  // mean of eᵀ P⁻¹ e; 2 if consistent
+  std::optional<double> measurement_rmse;           // of its raw detections [m]
+  std::optional<Vec2> bias;                         // mean error [m]
+  std::optional<double> peak_error;                 // max |e| [m]
+  std::optional<double> lag;                        // mean of −e along the velocity [m]
+  std::optional<double> predicted_lag;              // the same of the expected lag [m]
+  std::optional<double> settling_time;              // see RunMetrics::kCalmScans; absent: never [s]
+  double lifetime = 0.0;                            // from its first scan to its last [s]
+  std::optional<double> mai;                        // mean absolute innovation, mean |r| [m]
+  std::optional<double> predicted_mai;              // its prediction [m]
+  std::optional<double> nees;                       // mean of eᵀ P⁻¹ e; 2 if consistent
   std::optional<Interval> nees_bounds95;
   std::optional<double> nis;  // mean of rᵀ S⁻¹ r; 2 if consistent
-  std::optional<double> predicted_nis;  // tr S⁻¹ (S_true + m mᵀ) with the residual's expected m, S_true
+  std::optional<double>
+      predicted_nis;  // tr S⁻¹ (S_true + m mᵀ) with the residual's expected m, S_true
   std::optional<Interval> nis_bounds95;
 };
 
-/// Means over the instants of scans at which there was a target or a track, and counts over the run.
+/// Means over the instants of scans at which there was a target or a track, and counts over the
+/// run.
 struct TotalReport {
   std::int64_t scans = 0;
   double gospa = 0.0;                                                      // [m]
   double gospa_localisation = 0.0, gospa_missed = 0.0, gospa_false = 0.0;  // [m^p]
   double ospa = 0.0;                                                       // [m]
   double missed_targets = 0.0, false_tracks = 0.0;                         // per scan
-  std::optional<double> rmse_of_pairs;  // over GOSPA's assignment [m]
-  std::optional<double> rmse_position;                                     // over all objects [m]
-  std::optional<double> predicted_rmse;                                    // [m]
-  std::optional<double> rmse_velocity;                                     // [m/s]
-  std::optional<double> measurement_rmse;                                  // [m]
-  std::optional<double> mai;                                               // [m]
-  double switches = 0.0;  // over the run, of GOSPA's assignment: see SwitchCounter
+  std::optional<double> rmse_of_pairs;     // over GOSPA's assignment [m]
+  std::optional<double> rmse_position;     // over all objects [m]
+  std::optional<double> predicted_rmse;    // [m]
+  std::optional<double> rmse_velocity;     // [m/s]
+  std::optional<double> measurement_rmse;  // [m]
+  std::optional<double> mai;               // [m]
+  double switches = 0.0;                   // over the run, of GOSPA's assignment: see SwitchCounter
   MotResult mot;
 };
 
@@ -171,7 +173,7 @@ class RunMetrics final : public RunObserver {
     std::optional<int> track;  // that follows the object, or did last
     bool followed = false;     // in the latest scan
     int ignored = 0;           // detections of the object in a row that its track did not use
-    std::vector<ScanScore> doubtful;  // scans since then, which may belong to a loss
+    std::vector<ScanScore> doubtful;     // scans since then, which may belong to a loss
     std::vector<double> doubtful_known;  // squared errors of what was known since then [m²]
     Mean squared_known_error;
     BatchMeans squared_error;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tools/metrics/mot_json.hpp"
 #include "tools/metrics/json_values.hpp"
+#include "tools/metrics/mot_json.hpp"
 #include "tools/metrics/run_metrics.hpp"
 #include "tools/metrics/text_table.hpp"
 
@@ -174,11 +174,12 @@ void write_json(const RunReport& report, const std::function<void(std::string_vi
 }
 
 std::string to_table(const RunReport& report, std::size_t width) {
-  const bool has_bound = std::any_of(report.objects.begin(), report.objects.end(),
-                                     [](const ObjectReport& object) { return object.crlb.has_value(); });
-  const bool has_latency = std::any_of(
-      report.objects.begin(), report.objects.end(),
-      [](const ObjectReport& object) { return object.rmse_at_clock.has_value(); });
+  const bool has_bound =
+      std::any_of(report.objects.begin(), report.objects.end(),
+                  [](const ObjectReport& object) { return object.crlb.has_value(); });
+  const bool has_latency =
+      std::any_of(report.objects.begin(), report.objects.end(),
+                  [](const ObjectReport& object) { return object.rmse_at_clock.has_value(); });
   std::vector<TextColumn> columns = {
       {"object", 17}, {"regime", 8}, {"filter and gains", 26}, {"RMSE [m]", 8, true}};
   if (has_latency) columns.push_back({"at clock", 8, true});

@@ -37,10 +37,10 @@ Scorer::Step Scorer::add(double time, const ScoredSet& truth, const ScoredSet& t
       options_.order_of_ospa() == options.order
           ? sets.ospa
           : ospa(truth.positions, tracks.positions, options.cutoff, options_.order_of_ospa());
-  Step step{.score = {time, static_cast<int>(truth.ids.size()),
-                      static_cast<int>(tracks.ids.size()), sets.gospa, sets.localisation,
-                      sets.missed, sets.false_tracks, sets.missed_count, sets.false_count,
-                      ospa_of_order, switches_.add(truth.ids, tracks.ids, sets.matches)},
+  Step step{.score = {time, static_cast<int>(truth.ids.size()), static_cast<int>(tracks.ids.size()),
+                      sets.gospa, sets.localisation, sets.missed, sets.false_tracks,
+                      sets.missed_count, sets.false_count, ospa_of_order,
+                      switches_.add(truth.ids, tracks.ids, sets.matches)},
             .matches = sets.matches};
   for (const PointMatch& match : sets.matches) squared_error_ += match.distance * match.distance;
   sums_.pairs += std::ssize(sets.matches);
@@ -113,8 +113,8 @@ ScoreResult combine(std::span<const ScoreResult> results) {
   }
   if (sum.steps > 0) {
     const auto steps = static_cast<double>(sum.steps);
-    for (double* total : {&sum.gospa, &sum.gospa_localisation, &sum.gospa_missed, &sum.gospa_false,
-                          &sum.ospa}) {
+    for (double* total :
+         {&sum.gospa, &sum.gospa_localisation, &sum.gospa_missed, &sum.gospa_false, &sum.ospa}) {
       *total /= steps;
     }
     if (sum.options.switching_penalty) sum.gospa_switching = with_switches / steps;

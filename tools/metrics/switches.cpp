@@ -47,8 +47,8 @@ double SwitchCounter::release(std::int64_t truth, std::int64_t track) {
 double gospa_with_switches(double gospa, double switches, double penalty, double order) {
   const double unit = std::max(gospa, penalty);  // so that no power overflows
   if (!(unit > 0.0)) return 0.0;
-  return unit * power(power(gospa / unit, order) + switches * power(penalty / unit, order),
-                         1.0 / order);
+  return unit *
+         power(power(gospa / unit, order) + switches * power(penalty / unit, order), 1.0 / order);
 }
 
 }  // namespace ghtrack

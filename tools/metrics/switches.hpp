@@ -8,13 +8,13 @@
 
 namespace ghtrack {
 
-/// Counts how GOSPA's assignment changes, as the trajectory metric of García-Fernández, Rahmathullah
-/// & Svensson (2020) charges it: 1/2 for an object that loses a track and 1/2 for one that takes a
-/// track. An assignment to what is not there costs the metric nothing beyond what is missed or
-/// false anyway, so it may begin before the first match and outlast the last: a first acquisition,
-/// a loss for good and a gap after which the same track is back are free. What is charged is
-/// an object that goes to another track (1), a track that goes to another object (1), and two that
-/// swap (2).
+/// Counts how GOSPA's assignment changes, as the trajectory metric of García-Fernández,
+/// Rahmathullah & Svensson (2020) charges it: 1/2 for an object that loses a track and 1/2 for one
+/// that takes a track. An assignment to what is not there costs the metric nothing beyond what is
+/// missed or false anyway, so it may begin before the first match and outlast the last: a first
+/// acquisition, a loss for good and a gap after which the same track is back are free. What is
+/// charged is an object that goes to another track (1), a track that goes to another object (1),
+/// and two that swap (2).
 ///
 /// The trajectory metric chooses the assignments of all instants together; here each instant keeps
 /// its own, so that the cost is an upper bound of theirs. Memory grows with the identities.

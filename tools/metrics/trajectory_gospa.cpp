@@ -145,9 +145,9 @@ std::vector<std::int64_t> TrajectoryGospa::instants_of(const Group& group) {
   return instants;
 }
 
-/// Minimises Σ (cost − 1) W + (γ/c)^p / 2 Σ |ΔW|, in units of c^p: a pair that is given costs `cost`
-/// and saves one missed and one false of 1/2 each. With u ≥ ΔW, u ≥ 0, Σ |ΔW| / 2 = Σ u − (W(end) −
-/// W(start)) / 2.
+/// Minimises Σ (cost − 1) W + (γ/c)^p / 2 Σ |ΔW|, in units of c^p: a pair that is given costs
+/// `cost` and saves one missed and one false of 1/2 each. With u ≥ ΔW, u ≥ 0, Σ |ΔW| / 2 = Σ u −
+/// (W(end) − W(start)) / 2.
 TrajectoryGospa::Solution TrajectoryGospa::solve(const Group& group) const {
   Solution solution;
   if (group.size() == 1) {  // no rivals, so that they are always together
@@ -224,8 +224,7 @@ std::optional<TrajectoryGospaResult> TrajectoryGospa::result(bool whatever_it_ta
   result.missed = unit / 2.0 * (static_cast<double>(truths_) - sum.matched);
   result.false_tracks = unit / 2.0 * (static_cast<double>(tracks_) - sum.matched);
   result.switches = power(options_.switching_penalty, options_.order) * sum.changes;
-  const double total =
-      result.localisation + result.missed + result.false_tracks + result.switches;
+  const double total = result.localisation + result.missed + result.false_tracks + result.switches;
   result.tgospa = power(total, 1.0 / options_.order);
   return result;
 }
@@ -238,8 +237,7 @@ TrajectoryGospaResult combine(std::span<const TrajectoryGospaResult> results, do
     sum.false_tracks += result.false_tracks;
     sum.switches += result.switches;
   }
-  sum.tgospa =
-      power(sum.localisation + sum.missed + sum.false_tracks + sum.switches, 1.0 / order);
+  sum.tgospa = power(sum.localisation + sum.missed + sum.false_tracks + sum.switches, 1.0 / order);
   return sum;
 }
 

@@ -11,8 +11,8 @@
 namespace ghtrack {
 
 struct TrajectoryGospaOptions {
-  double cutoff = 10.0;           // c [m], > 0
-  double order = 2.0;             // p, 1 ≤ p < ∞
+  double cutoff = 10.0;            // c [m], > 0
+  double order = 2.0;              // p, 1 ≤ p < ∞
   double switching_penalty = 2.0;  // γ [m], > 0: of an object that goes from one track to another
 };
 
@@ -29,8 +29,8 @@ struct TrajectoryGospaResult {
 /// & Svensson (IEEE Transactions on Signal Processing 68, 2020), which may have holes. With W_ij(k)
 /// the share of track j that object i is given at instant k, 0 ≤ W, Σ_i W ≤ 1, Σ_j W ≤ 1:
 ///   min Σ_k [ Σ_ij W_ij(k) d_ij(k) + what is not given ] + γ^p / 2 Σ_k Σ_ij |W_ij(k+1) − W_ij(k)|
-/// where d is the p-norm of the difference, as in the authors' programs, a pair costs min(d, c)^p, and
-/// whatever is missed or false costs c^p / 2.
+/// where d is the p-norm of the difference, as in the authors' programs, a pair costs min(d, c)^p,
+/// and whatever is missed or false costs c^p / 2.
 ///
 /// Of the programme only what can matter is solved: pairs that never come closer than c are left
 /// out, instants at which no pair of a group is closer are passed over, and groups of objects and

@@ -1,8 +1,8 @@
 // The laboratory for the browser: what the page may call. Compiled for WebAssembly only, together
 // with the sources that `ghtrack run` runs; nothing is computed in JavaScript.
 //
-// A call that fails ends with a WebAssembly trap, which JavaScript sees as a RuntimeError; message()
-// tells why, and the page goes on with a fresh instance.
+// A call that fails ends with a WebAssembly trap, which JavaScript sees as a RuntimeError;
+// message() tells why, and the page goes on with a fresh instance.
 
 #include <algorithm>
 #include <cstdlib>

@@ -42,7 +42,8 @@ class Parser {
   }
 
   [[noreturn]] void refuse(const std::string& message) {
-    const std::string before = rest_.empty() ? "the end" : "'" + std::string(rest_.substr(0, 20)) + "'";
+    const std::string before =
+        rest_.empty() ? "the end" : "'" + std::string(rest_.substr(0, 20)) + "'";
     throw SceneError({{.message = message + " before " + before}});
   }
 

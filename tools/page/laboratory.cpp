@@ -124,8 +124,11 @@ Laboratory::Laboratory(std::string_view scene, std::span<const double> truth) {
   const auto recorded = read<RecordedScene>(scene);
   scene_.duration = recorded.duration;
   scene_.seed = recorded.seed;
-  truth_ = std::make_shared<const TruthRecording>(TruthRecording{
-      .objects = from_recorded(recorded.objects), .snapshots = from_numbers(truth), .displacements = {}, .events = {}});
+  truth_ = std::make_shared<const TruthRecording>(
+      TruthRecording{.objects = from_recorded(recorded.objects),
+                     .snapshots = from_numbers(truth),
+                     .displacements = {},
+                     .events = {}});
 }
 
 std::size_t Laboratory::word(std::string_view text) {
@@ -168,10 +171,14 @@ std::string Laboratory::theory(std::string_view filter) const {
   const auto config = read<FilterConfig>(filter);
   const Filter made = make_filter(config, scoring.sigma, scoring.period);
   const Gains gains = steady_gains(made).value_or(Gains{});
-  nlohmann::json json = {{"name", name(made)},         {"gains", gains_text(made)},
-                         {"g", gains.g},               {"h", gains.h},
-                         {"k", gains.k},               {"order", gains.order},
-                         {"sigma", scoring.sigma},     {"dt", scoring.period},
+  nlohmann::json json = {{"name", name(made)},
+                         {"gains", gains_text(made)},
+                         {"g", gains.g},
+                         {"h", gains.h},
+                         {"k", gains.k},
+                         {"order", gains.order},
+                         {"sigma", scoring.sigma},
+                         {"dt", scoring.period},
                          {"stable", is_stable(gains)}};
   if (!is_stable(gains)) return json.dump();
   const VarianceReduction vrf = variance_reduction(gains, scoring.period);

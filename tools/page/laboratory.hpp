@@ -15,20 +15,20 @@ namespace ghtrack::page {
 /// One track after one scan, as the page draws it. Numbers only, so that a browser can read a list
 /// of them as it lies in memory.
 struct TrackRow {
-  double scan;     // index among all scans in the order in which they arrived
+  double scan;  // index among all scans in the order in which they arrived
   double id;
-  double status;   // TrackStatus
-  double filter;   // index into Laboratory::words()
-  double label;    // the same
+  double status;  // TrackStatus
+  double filter;  // index into Laboratory::words()
+  double label;   // the same
   double x, y, vx, vy, ax, ay;
   double x_pred, y_pred;
-  double rx, ry;                // NaN where no detection was used
+  double rx, ry;  // NaN where no detection was used
   double sigma_x, sigma_y;
-  double s_xx, s_xy, s_yy;      // covariance of the residual: the gate
-  double p_xx, p_xy, p_yy;      // covariance of the error
-  double existence;             // NaN where it is not weighed
-  double nis;                   // NaN without a residual
-  double object;                // that it follows; -1: none
+  double s_xx, s_xy, s_yy;  // covariance of the residual: the gate
+  double p_xx, p_xy, p_yy;  // covariance of the error
+  double existence;         // NaN where it is not weighed
+  double nis;               // NaN without a residual
+  double object;            // that it follows; -1: none
 };
 
 /// One detection.
@@ -98,8 +98,8 @@ class Laboratory {
   std::vector<std::string> words_;
 };
 
-/// Runs the filters of a SeriesScene in flow style over its measurements. What they made of them, as
-/// JSON.
+/// Runs the filters of a SeriesScene in flow style over its measurements. What they made of them,
+/// as JSON.
 /// @throws SceneError if the text is wrong
 std::string run_series(std::string_view scene);
 

@@ -37,7 +37,7 @@ extern const std::string_view kSeriesScript;
 namespace ghtrack::page {
 namespace {
 
-constexpr double kLongestGap = 0.1;                      // between instants that are drawn [s]
+constexpr double kLongestGap = 0.1;                         // between instants that are drawn [s]
 constexpr std::size_t kMostNumbers = std::size_t{8} << 20;  // of a truth: 64 MB
 
 /// The instants of all scans, others in between where they lie far apart, and the end.
@@ -74,7 +74,8 @@ nlohmann::json scenery(const render::SceneDrawing& drawing) {
   if (!drawing.ground) {  // seen from the side, they would run through the cars
     for (const auto& rails : drawing.rails) json["rails"].push_back(points(rails));
   }
-  for (const Wall& wall : drawing.walls) json["walls"].push_back({point(wall.from), point(wall.to)});
+  for (const Wall& wall : drawing.walls)
+    json["walls"].push_back({point(wall.from), point(wall.to)});
   for (const SolidBox& box : drawing.boxes) {
     const auto corners = box.corners();
     json["boxes"].push_back(points({corners.begin(), corners.end()}));
@@ -147,57 +148,53 @@ std::string scene_page(const WorldScene& scene, const PageOptions& options,
   ReplayedTruth replayed(std::make_shared<const TruthRecording>(truth));
   const render::SceneDrawing drawing = film::drawing_of(scene, world, replayed, {}, on_step);
 
-  const RecordedScene recorded{.duration = scene.duration,
-                               .seed = scene.seed,
-                               .objects = to_recorded(truth.objects)};
+  const RecordedScene recorded{
+      .duration = scene.duration, .seed = scene.seed, .objects = to_recorded(truth.objects)};
   nlohmann::ordered_json compared = nlohmann::ordered_json::object();
   for (const std::string& name : scene.compare.names()) {
     compared[name] = as_json(scene.compare.filters.at(name));
   }
-  const nlohmann::json described = {
-      {"title", scene.name},
-      {"command", options.command},
-      {"duration", scene.duration},
-      {"seed", std::to_string(scene.seed)},
-      {"scenery", scenery(drawing)},
-      {"palette", palette(truth.objects)},
-      {"sensors", as_json(scene.sensors)},
-      {"tracker", as_json(scene.tracker)},
-      {"compare", compared},
-      {"forms", filter_forms()}};
+  const nlohmann::json described = {{"title", scene.name},
+                                    {"command", options.command},
+                                    {"duration", scene.duration},
+                                    {"seed", std::to_string(scene.seed)},
+                                    {"scenery", scenery(drawing)},
+                                    {"palette", palette(truth.objects)},
+                                    {"sensors", as_json(scene.sensors)},
+                                    {"tracker", as_json(scene.tracker)},
+                                    {"compare", compared},
+                                    {"forms", filter_forms()}};
   const std::string_view bytes(reinterpret_cast<const char*>(numbers.data()),
                                numbers.size() * sizeof(double));
   const html::Page page{
       .title = scene.name + " - ghtrack",
       .description = "Truth, detections and tracks of the scene, with filters to be turned",
-      .body = html::filled(embedded::kPageBody,
-                           {{"title", scene.name},
-                            {"scene", html::json_for_script(described)},
-                            {"recorded", html::json_for_script(as_json(recorded))},
-                            {"truth", html::base64(bytes)},
-                            {"wasm", html::base64(embedded::kLaboratoryWasm)}}),
+      .body =
+          html::filled(embedded::kPageBody, {{"title", scene.name},
+                                             {"scene", html::json_for_script(described)},
+                                             {"recorded", html::json_for_script(as_json(recorded))},
+                                             {"truth", html::base64(bytes)},
+                                             {"wasm", html::base64(embedded::kLaboratoryWasm)}}),
       .styles = {html::base_style(), embedded::kPageStyle},
       .scripts = {embedded::kPageEngineScript, embedded::kPageViewScript,
-                  embedded::kPagePlotsScript, embedded::kPageControlsScript,
-                  embedded::kPageScript},
+                  embedded::kPagePlotsScript, embedded::kPageControlsScript, embedded::kPageScript},
       .runs_wasm = true};
   return html::to_html(page);
 }
 
 std::string series_page(const SeriesScene& scene, const PageOptions& options) {
   check_that_nothing_is_missing();
-  const nlohmann::json described = {
-      {"title", scene.name},
-      {"command", options.command},
-      {"palette", palette({})},
-      {"series", as_json(scene)}};
+  const nlohmann::json described = {{"title", scene.name},
+                                    {"command", options.command},
+                                    {"palette", palette({})},
+                                    {"series", as_json(scene)}};
   const html::Page page{
       .title = scene.name + " - ghtrack",
       .description = "Measurements and estimates of the series, with filters to be turned",
-      .body = html::filled(embedded::kSeriesBody,
-                           {{"title", scene.name},
-                            {"scene", html::json_for_script(described)},
-                            {"wasm", html::base64(embedded::kLaboratoryWasm)}}),
+      .body =
+          html::filled(embedded::kSeriesBody, {{"title", scene.name},
+                                               {"scene", html::json_for_script(described)},
+                                               {"wasm", html::base64(embedded::kLaboratoryWasm)}}),
       .styles = {html::base_style(), embedded::kPageStyle},
       .scripts = {embedded::kPageEngineScript, embedded::kPageViewScript,
                   embedded::kPagePlotsScript, embedded::kPageControlsScript,

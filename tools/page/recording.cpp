@@ -50,13 +50,13 @@ std::vector<RecordedObject> to_recorded(const std::vector<ObjectInfo>& objects) 
 std::vector<ObjectInfo> from_recorded(const std::vector<RecordedObject>& objects) {
   std::vector<ObjectInfo> result;
   for (const RecordedObject& one : objects) {
-    result.push_back({.id = static_cast<ObjectId>(result.size()),
-                      .name = one.name,
-                      .regime = one.regime,
-                      .label = one.label,
-                      .key = one.key,
-                      .outline = {RecordedObject::kShapes.at(one.shape).second, one.length,
-                                  one.width}});
+    result.push_back(
+        {.id = static_cast<ObjectId>(result.size()),
+         .name = one.name,
+         .regime = one.regime,
+         .label = one.label,
+         .key = one.key,
+         .outline = {RecordedObject::kShapes.at(one.shape).second, one.length, one.width}});
   }
   return result;
 }

@@ -24,8 +24,8 @@ struct Axis {
 /// An axis over [low, high], a little wider, with about so many ticks.
 Axis axis_over(double low, double high, double ticks, bool tight);
 
-/// A logarithmic axis over [low, high], both above zero, with ticks at powers of ten, and at 2 and 5
-/// times these where there are few.
+/// A logarithmic axis over [low, high], both above zero, with ticks at powers of ten, and at 2 and
+/// 5 times these where there are few.
 Axis logarithmic_axis_over(double low, double high);
 
 /// An axis with a tick for each of these, at 0, 1, …

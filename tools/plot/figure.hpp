@@ -40,11 +40,11 @@ struct Panel {
   std::vector<Curve> curves = {};
   std::vector<Band> bands = {};
   std::vector<Level> levels = {};
-  bool wide = false;                 // as wide as the figure
-  bool equal_scales = false;         // a metre is as long in x as in y
+  bool wide = false;                                  // as wide as the figure
+  bool equal_scales = false;                          // a metre is as long in x as in y
   bool x_logarithmic = false, y_logarithmic = false;  // values at or below zero are left out
   std::vector<std::string> y_names = {};              // of y = 0, 1, …, instead of numbers
-  std::optional<double> y_from = {}, y_to = {};  // instead of what the curves need
+  std::optional<double> y_from = {}, y_to = {};       // instead of what the curves need
 };
 
 struct Figure {

@@ -31,8 +31,8 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned count) {
 /// How many columns give panels that are neither flat nor narrow, where the height is given.
 int columns_in(const Style& style, const std::vector<Panel>& panels) {
   const auto count = static_cast<int>(panels.size());
-  const bool has_wide = std::any_of(panels.begin(), panels.end(),
-                                    [](const Panel& panel) { return panel.wide; });
+  const bool has_wide =
+      std::any_of(panels.begin(), panels.end(), [](const Panel& panel) { return panel.wide; });
   if (style.height == 0.0 || has_wide) return std::min(style.columns, std::max(1, count));
   constexpr double kBeside = 6.0, kAround = 5.0;  // of what is drawn, in letters
   const auto flatness = [&](int columns) {
@@ -52,8 +52,7 @@ int columns_in(const Style& style, const std::vector<Panel>& panels) {
 /// Where the panels of a figure are, in rows of as many as there is room for.
 class Layout {
  public:
-  Layout(const Figure& figure, const Style& style)
-      : columns_(columns_in(style, figure.panels)) {
+  Layout(const Figure& figure, const Style& style) : columns_(columns_in(style, figure.panels)) {
     top_ = figure.title.empty() ? 0.0 : kTitle * style.font_size;
     const double width = style.width / columns_;
     double y = 0.0;
@@ -132,19 +131,20 @@ void write_figure(const std::filesystem::path& path, const Figure& figure, const
   std::string bytes;
   const bool is_png = ending == ".png";
   const double scale = is_png ? style.pixels_per_point : 1.0;
-  Surface surface(is_png ? cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-                                                      static_cast<int>(std::lround(style.width * scale)),
-                                                      static_cast<int>(std::lround(height * scale)))
-                  : ending == ".pdf"
-                      ? cairo_pdf_surface_create_for_stream(&append, &bytes, style.width, height)
-                      : cairo_svg_surface_create_for_stream(&append, &bytes, style.width, height),
-                  &cairo_surface_destroy);
+  Surface surface(
+      is_png ? cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                          static_cast<int>(std::lround(style.width * scale)),
+                                          static_cast<int>(std::lround(height * scale)))
+      : ending == ".pdf"
+          ? cairo_pdf_surface_create_for_stream(&append, &bytes, style.width, height)
+          : cairo_svg_surface_create_for_stream(&append, &bytes, style.width, height),
+      &cairo_surface_destroy);
   if (ending == ".pdf") {  // the date would make every file differ
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                    "2000-01-01T00:00:00Z");
   }
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface.get()),
-                                                                &cairo_destroy);
+                                                                 &cairo_destroy);
   cairo_scale(cairo.get(), scale, scale);
   draw(cairo.get(), figure, style, layout);
   cairo_show_page(cairo.get());

@@ -54,9 +54,9 @@ class Frame {
     const double y_ticks = plot.height / (font_size * 3.5);
     x = panel.x_logarithmic ? logarithmic_axis_over(xs.low, xs.high)
                             : axis_over(xs.low, xs.high, x_ticks, !panel.equal_scales);
-    y = !panel.y_names.empty()    ? axis_of(panel.y_names)
-        : panel.y_logarithmic ? logarithmic_axis_over(ys.low, ys.high)
-                              : axis_over(ys.low, ys.high, y_ticks, panel.y_from && panel.y_to);
+    y = !panel.y_names.empty() ? axis_of(panel.y_names)
+        : panel.y_logarithmic  ? logarithmic_axis_over(ys.low, ys.high)
+                               : axis_over(ys.low, ys.high, y_ticks, panel.y_from && panel.y_to);
     if (panel.equal_scales) equalise(x_ticks, y_ticks);
   }
 

@@ -103,11 +103,8 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
   const std::vector<double>& t = *column(series, first, "t");
   const auto* const z = column(series, first, "z" + suffix);
   if (z != nullptr && labels.shows_measurements) {
-    values.curves.insert(values.curves.begin(), {.name = "measured",
-                                                 .x = t,
-                                                 .y = *z,
-                                                 .mark = Mark::kDots,
-                                                 .colour = -2});
+    values.curves.insert(values.curves.begin(),
+                         {.name = "measured", .x = t, .y = *z, .mark = Mark::kDots, .colour = -2});
   }
   const auto* const truth = column(series, first, "truth" + suffix);
   if (truth != nullptr) {

@@ -45,11 +45,11 @@ double g_of(const std::string& gains) {
 
 /// A regime in a cell.
 struct Point {
-  double index = kNothing;  // λ
-  double best = std::numeric_limits<double>::infinity();   // error ÷ raw of the best filter
-  double fixed = kNothing;  // of the best fixed gains
-  double bound = kNothing;  // of the posterior bound
-  double g = kNothing;      // that was tuned for the g-h filter
+  double index = kNothing;                                // λ
+  double best = std::numeric_limits<double>::infinity();  // error ÷ raw of the best filter
+  double fixed = kNothing;                                // of the best fixed gains
+  double bound = kNothing;                                // of the posterior bound
+  double g = kNothing;                                    // that was tuned for the g-h filter
 };
 
 /// By regime, in the order of the file; each by λ.
@@ -141,22 +141,22 @@ Figure figure_of_study(const std::string& path, const std::string& title) {
   for (const auto& [regime, points] : regimes) {
     error.curves.push_back(curve_of(regime, points, Mark::kDots, colour,
                                     [](const Point& point) { return point.best; }));
-    error.curves.push_back(curve_of("", points, Mark::kRings, colour,
-                                    [](const Point& point) { return point.fixed; }));
-    error.curves.push_back(curve_of("", points, Mark::kLine, colour,
-                                    [](const Point& point) { return point.bound; }));
-    gain.curves.push_back(curve_of(regime, points, Mark::kDots, colour,
-                                   [](const Point& point) { return point.g; }));
+    error.curves.push_back(
+        curve_of("", points, Mark::kRings, colour, [](const Point& point) { return point.fixed; }));
+    error.curves.push_back(
+        curve_of("", points, Mark::kLine, colour, [](const Point& point) { return point.bound; }));
+    gain.curves.push_back(
+        curve_of(regime, points, Mark::kDots, colour, [](const Point& point) { return point.g; }));
     const double row = colour++;
-    cells.curves.push_back(
-        curve_of("", points, Mark::kDots, static_cast<int>(row), [row](const Point&) { return row; }));
+    cells.curves.push_back(curve_of("", points, Mark::kDots, static_cast<int>(row),
+                                    [row](const Point&) { return row; }));
     cells.y_names.push_back(regime);
   }
   error.levels.push_back({1.0, "the detections themselves"});
   Figure figure{.title = title, .panels = {error}};
   const bool any_gain = std::any_of(gain.curves.begin(), gain.curves.end(), [](const Curve& curve) {
-    return curve.colour >= 0 && std::any_of(curve.y.begin(), curve.y.end(),
-                                            [](double g) { return std::isfinite(g); });
+    return curve.colour >= 0 &&
+           std::any_of(curve.y.begin(), curve.y.end(), [](double g) { return std::isfinite(g); });
   });
   if (any_gain) figure.panels.push_back(gain);
   figure.panels.push_back(cells);

@@ -17,9 +17,9 @@
 namespace ghtrack::plot {
 namespace {
 
-constexpr std::size_t kFew = 8;            // tracks that a legend or bands can show
-constexpr double kUpper95 = 5.991464547;   // of χ² with 2 degrees of freedom
-constexpr double kLongAgo = 1e6;           // times beyond are shown since the first [s]
+constexpr std::size_t kFew = 8;           // tracks that a legend or bands can show
+constexpr double kUpper95 = 5.991464547;  // of χ² with 2 degrees of freedom
+constexpr double kLongAgo = 1e6;          // times beyond are shown since the first [s]
 
 /// Estimate minus truth of a track over time.
 struct ErrorCurves {
@@ -116,7 +116,8 @@ Panel positions(const Data& data, const std::string& title, const std::string& y
   const auto x_of = [&](const TrackCurves& curves) {
     return along_path ? curves.x : data.shifted(curves.t);
   };
-  Curve seen{.name = along_path ? "detections" : "", .x = {}, .y = {}, .mark = Mark::kDots, .colour = -2};
+  Curve seen{
+      .name = along_path ? "detections" : "", .x = {}, .y = {}, .mark = Mark::kDots, .colour = -2};
   for (const TrackCurves& curves : data.detections) {
     const std::vector<double> x = x_of(curves);
     seen.x.insert(seen.x.end(), x.begin(), x.end());
@@ -156,8 +157,8 @@ Panel quantity(const Data& data, const std::string& title, const std::string& y_
 
 /// Residuals with their bounds: twice what the tracker expects, or twice their root mean square.
 Panel residuals(const Data& data, const std::string& title, Quantity which, Quantity expected) {
-  Panel panel = quantity(data, title, fmt::format("z − prior [{}]", data.unit()), which,
-                         Mark::kDots);
+  Panel panel =
+      quantity(data, title, fmt::format("z − prior [{}]", data.unit()), which, Mark::kDots);
   if (data.has(expected) && data.tracks.size() <= kFew) {
     for (std::size_t i = 0; i < data.tracks.size(); ++i) {
       Band band{.name = i == 0 ? "± 2 expected" : "",
@@ -225,11 +226,8 @@ Panel errors(const Data& data, const std::string& axis, std::vector<double> Erro
       }
       panel.bands.push_back(std::move(band));
     }
-    panel.curves.push_back({.name = "",
-                            .x = curves.t,
-                            .y = curves.*error,
-                            .mark = Mark::kLine,
-                            .colour = colour});
+    panel.curves.push_back(
+        {.name = "", .x = curves.t, .y = curves.*error, .mark = Mark::kLine, .colour = colour});
   }
   if (data.tracks.size() > kFew) {  // bands would hide one another
     const double usual = median_sigma(data, sigma);
@@ -296,18 +294,21 @@ Panel nis(const Data& data) {
 std::optional<Panel> panel_named(const std::string& name, const Data& data) {
   const std::string unit = data.unit();
   if (name == "path") {
-    Panel panel = positions(data, "path", fmt::format("y [{}]", unit),
-                            [](const TrackCurves& c) -> const auto& { return c.y; }, true);
+    Panel panel = positions(
+        data, "path", fmt::format("y [{}]", unit),
+        [](const TrackCurves& c) -> const auto& { return c.y; }, true);
     panel.equal_scales = true;
     return panel;
   }
   if (name == "x") {
-    return positions(data, "x", fmt::format("x [{}]", unit),
-                     [](const TrackCurves& c) -> const auto& { return c.x; }, false);
+    return positions(
+        data, "x", fmt::format("x [{}]", unit),
+        [](const TrackCurves& c) -> const auto& { return c.x; }, false);
   }
   if (name == "y") {
-    return positions(data, "y", fmt::format("y [{}]", unit),
-                     [](const TrackCurves& c) -> const auto& { return c.y; }, false);
+    return positions(
+        data, "y", fmt::format("y [{}]", unit),
+        [](const TrackCurves& c) -> const auto& { return c.y; }, false);
   }
   const auto velocity = [&](const char* title, Quantity which) -> std::optional<Panel> {
     if (!data.has(which)) return std::nullopt;
@@ -350,9 +351,9 @@ std::optional<Panel> panel_named(const std::string& name, const Data& data) {
 }  // namespace
 
 const std::vector<std::string>& track_panels() {
-  static const std::vector<std::string> kPanels = {
-      "path",    "x",          "y",          "vx",   "vy",  "error_x",
-      "error_y", "residual_x", "residual_y", "nees", "nis", "existence"};
+  static const std::vector<std::string> kPanels = {"path",       "x",       "y",       "vx",
+                                                   "vy",         "error_x", "error_y", "residual_x",
+                                                   "residual_y", "nees",    "nis",     "existence"};
   return kPanels;
 }
 

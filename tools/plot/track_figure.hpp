@@ -15,7 +15,7 @@ struct TrackPlot {
   std::vector<std::string> panels;  // of track_panels(); empty: all that the data give
   double cutoff = 0.0;              // how far an estimate may be from its object [m]; 0: 10 m
   std::string title;
-  ReadOptions reading;              // of the detections
+  ReadOptions reading;  // of the detections
 };
 
 /// The panels that there are: path, x, y, vx, vy, error_x, error_y, residual_x, residual_y, nees,

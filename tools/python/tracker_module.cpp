@@ -84,7 +84,8 @@ class LiveTracker {
     });
     vectors({"sigma_x", "sigma_y"}, [](const TrackEstimate& track) { return track.sigma; });
     if (now.weighs_existence) {
-      numbers("existence", [](const TrackEstimate& track) { return track.existence.value_or(1.0); });
+      numbers("existence",
+              [](const TrackEstimate& track) { return track.existence.value_or(1.0); });
     }
     return columns;
   }

@@ -47,9 +47,7 @@ struct WordColumn {
   std::vector<std::int32_t> rows;
 
   void add(std::string_view word) { rows.push_back(words.number_of(word)); }
-  py::tuple take() {
-    return py::make_tuple(as_array(std::move(rows)), words.words());
-  }
+  py::tuple take() { return py::make_tuple(as_array(std::move(rows)), words.words()); }
 };
 
 /// Columns by name.

@@ -70,8 +70,8 @@ class CsvRow {
   void clear() { text_.clear(); }
 
  private:
-  /// A number as it was written last. Columns such as times say the same in many rows in succession,
-  /// and finding the shortest digits is most of the work on a row.
+  /// A number as it was written last. Columns such as times say the same in many rows in
+  /// succession, and finding the shortest digits is most of the work on a row.
   struct Written {
     std::uint64_t bits = 0;
     std::uint8_t size = 0;  // of the digits; 0: nothing yet

@@ -48,19 +48,20 @@ bool looks_like_kitti_file(const std::filesystem::path& path) {
   return has_fields(words) && parse_whole(words[0]) && !parse_number(words[2]);
 }
 
-std::optional<KittiRow> parse_kitti_row(std::string_view line,
-                                        std::int64_t line_number, Findings& findings) {
+std::optional<KittiRow> parse_kitti_row(std::string_view line, std::int64_t line_number,
+                                        Findings& findings) {
   const auto words = words_of(line);
   if (words.empty()) return std::nullopt;
   if (!has_fields(words)) {
     findings.add(line_number, fmt::format("{} fields; a row of KITTI has {}, or {} with a score",
-                                   words.size(), kFields, kFields + 1));
+                                          words.size(), kFields, kFields + 1));
     return std::nullopt;
   }
   const auto frame = parse_whole(words[0]);
   const auto id = parse_whole(words[1]);
   if (!frame || *frame < 0 || *frame >= std::numeric_limits<std::int32_t>::max()) {
-    findings.add(line_number, fmt::format("frame {} is not a whole number from 0", in_quotes(words[0])));
+    findings.add(line_number,
+                 fmt::format("frame {} is not a whole number from 0", in_quotes(words[0])));
     return std::nullopt;
   }
   if (!id) {
@@ -76,15 +77,15 @@ std::optional<KittiRow> parse_kitti_row(std::string_view line,
     const auto number = parse_number(words[field]);
     if (!number) {
       findings.add(line_number, fmt::format("{} in field {} is not a finite number",
-                                     in_quotes(words[field]), field + 1));
+                                            in_quotes(words[field]), field + 1));
       return std::nullopt;
     }
     numbers[i] = *number;
   }
   const auto& [truncated, occluded, left, top, right, bottom, score] = numbers;
   if (!(right > left) || !(bottom > top)) {
-    findings.add(line_number, fmt::format("the box from {}, {} to {}, {} has no area", left, top, right,
-                                   bottom));
+    findings.add(line_number, fmt::format("the box from {}, {} to {}, {} has no area", left, top,
+                                          right, bottom));
     return std::nullopt;
   }
   KittiRow row{.box = {.frame = static_cast<std::int32_t>(*frame) + 1,

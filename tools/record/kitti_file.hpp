@@ -34,8 +34,8 @@ bool looks_like_kitti_file(const std::filesystem::path& path);
 /// Understands a line `frame id type truncated occluded alpha left top right bottom h w l x y z ry
 /// [score]`; images count from 0 and pixels too.
 /// @return absent if the line is blank or wrong, which is then among the findings
-std::optional<KittiRow> parse_kitti_row(std::string_view line,
-                                        std::int64_t line_number, Findings& findings);
+std::optional<KittiRow> parse_kitti_row(std::string_view line, std::int64_t line_number,
+                                        Findings& findings);
 
 /// Reads labels frame by frame: in constant memory if the file is in the order of frames; the rows
 /// of others are held in memory.
@@ -48,7 +48,7 @@ class KittiReader {
   ~KittiReader();
   KittiReader(KittiReader&&) noexcept;
 
-  bool in_order() const;                      // of frames, in the file
+  bool in_order() const;                       // of frames, in the file
   const std::set<std::string>& types() const;  // of all rows
 
   /// The rows of the next frame, in the order of the file, valid until the next call; empty after

@@ -162,8 +162,7 @@ class MotParser {
  public:
   explicit MotParser(MotRules rules) : rules_(rules) {}
 
-  std::optional<MotRow> operator()(std::string_view line, std::int64_t number,
-                                   Findings& findings) {
+  std::optional<MotRow> operator()(std::string_view line, std::int64_t number, Findings& findings) {
     Values values{};
     const std::size_t count = named_ ? 0 : plain_numbers(line, values);
     if (count >= kFewestFields) {
@@ -192,8 +191,7 @@ class MotParser {
 };
 
 /// The box of a line of labels, if it is an object's.
-std::optional<MotRow> labelled_box(std::string_view line, std::int64_t number,
-                                   Findings& findings) {
+std::optional<MotRow> labelled_box(std::string_view line, std::int64_t number, Findings& findings) {
   const std::optional<KittiRow> label = parse_kitti_row(line, number, findings);
   if (!label || label->type == kNotLabelled) return std::nullopt;
   return label->box;
@@ -218,12 +216,12 @@ struct MotReader::State {
         is_kitti(looks_like_kitti_file(path)),
         frames(
             path.string(),
-            [this, parse = MotParser({kind, last_frame.value_or(
-                       std::numeric_limits<std::int32_t>::max())})](
+            [this, parse = MotParser(
+                       {kind, last_frame.value_or(std::numeric_limits<std::int32_t>::max())})](
                 std::string_view line, std::int64_t number,
                 Findings& findings) mutable -> std::optional<FileRow<MotRow>> {
-              const auto row = is_kitti ? labelled_box(line, number, findings)
-                                        : parse(line, number, findings);
+              const auto row =
+                  is_kitti ? labelled_box(line, number, findings) : parse(line, number, findings);
               if (!row) return std::nullopt;
               return FileRow<MotRow>{static_cast<double>(row->frame), number, *row};
             },
@@ -263,7 +261,8 @@ std::span<const MotRow> MotReader::next() {
     now.push_back(read.row);
     if (state_->from_zero) ++now.back().frame;
     const bool is_ignored = state_->kind == MotKind::kTruth && read.row.confidence == 0.0;
-    if (!is_ignored && state_->kind != MotKind::kDetections) ids.emplace_back(read.row.id, read.line);
+    if (!is_ignored && state_->kind != MotKind::kDetections)
+      ids.emplace_back(read.row.id, read.line);
   }
   if (!ids.empty()) {
     const std::int32_t first = state_->is_kitti || state_->from_zero ? 0 : 1;
@@ -306,7 +305,9 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
 }
 
 void append_mot_row(std::string& text, const MotRow& row) {
-  const auto append = [&](const fmt::format_int& whole) { text.append(whole.data(), whole.size()); };
+  const auto append = [&](const fmt::format_int& whole) {
+    text.append(whole.data(), whole.size());
+  };
   append(fmt::format_int(row.frame));
   text += ',';
   append(fmt::format_int(row.id));

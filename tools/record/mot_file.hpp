@@ -61,9 +61,9 @@ class MotReader {
   MotReader(MotReader&&) noexcept;
 
   std::int64_t rows() const;
-  bool in_order() const;        // of frames, in the file
+  bool in_order() const;          // of frames, in the file
   bool counts_from_zero() const;  // the frames of a table with names; given from 1 as others
-  bool has_categories() const;  // some rows have one
+  bool has_categories() const;    // some rows have one
 
   /// The rows of the next frame, valid until the next call; empty after the last.
   /// @throws InputError if an identity is there twice

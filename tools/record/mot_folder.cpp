@@ -68,10 +68,10 @@ void EvaluationFolder::add(const MotSequence& sequence, std::int32_t last_frame)
   if (!sequence.truth) return;
   const fs::path folder = truth_folder() / set_ / sequence.name;
   write_file(in_new_folder(folder / "gt" / "gt.txt"), read_text_file(*sequence.truth));
-  write_file(folder / "seqinfo.ini", sequence.info_file
-                                         ? read_text_file(*sequence.info_file)
-                                         : fmt::format("[Sequence]\nname={}\nseqLength={}\n",
-                                                       sequence.name, last_frame));
+  write_file(folder / "seqinfo.ini",
+             sequence.info_file
+                 ? read_text_file(*sequence.info_file)
+                 : fmt::format("[Sequence]\nname={}\nseqLength={}\n", sequence.name, last_frame));
   scored_.push_back(sequence.name);
 }
 

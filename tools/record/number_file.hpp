@@ -7,8 +7,8 @@
 
 namespace ghtrack {
 
-/// A file for numbers that has no name, so that it vanishes with its process. In a browser, which has
-/// no files, it lies in memory.
+/// A file for numbers that has no name, so that it vanishes with its process. In a browser, which
+/// has no files, it lies in memory.
 class NumberFile {
  public:
   /// In the system's folder for such files.

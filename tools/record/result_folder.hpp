@@ -31,7 +31,8 @@ class ResultFolder {
   /// @throws WriteError if one of them cannot be put there; then the older ones stand again
   void commit();
 
-  /// Puts only what is called `….partial…` there: what an interrupted run has to say. The last call.
+  /// Puts only what is called `….partial…` there: what an interrupted run has to say. The last
+  /// call.
   void keep_partial();
 
  private:

@@ -20,9 +20,9 @@ class RunObserver {
   /// scan by scan in the order of arrival.
   virtual void add_tracks(const StepRecord& /*record*/) {}
 
-  /// What a contender knows at the instant of a scan: its tracks, predicted to it, once all that has
-  /// arrived by then is dealt with. Only where sensors have a latency: else that is what it says of
-  /// the scan.
+  /// What a contender knows at the instant of a scan: its tracks, predicted to it, once all that
+  /// has arrived by then is dealt with. Only where sensors have a latency: else that is what it
+  /// says of the scan.
   virtual void add_known(const TruthSnapshot& /*truth*/, const TrackSnapshot& /*tracks*/,
                          std::size_t /*contender*/) {}
 

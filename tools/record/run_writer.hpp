@@ -43,15 +43,15 @@ class TrackWriter {
 };
 
 /// Writes events.csv: `t,event,truth_id,name,other_id,other,x,y,impulse_x,impulse_y`: when what
-/// happened to whom, by which other object (its id is empty for a surface of the surroundings), where
-/// its centre was, and the impulse that it received [N s].
+/// happened to whom, by which other object (its id is empty for a surface of the surroundings),
+/// where its centre was, and the impulse that it received [N s].
 /// @throws WriteError
 void write_events(const std::filesystem::path& path, const std::vector<WorldEvent>& events,
                   const std::vector<ObjectInfo>& objects);
 
 /// Writes what happened in a run, scan by scan, into a folder: truth.csv, detections.csv,
-/// origins.csv and, of contender 0, tracks.csv; late scans leave no row there. The files get their names by commit(); without it, or
-/// keep_partial(), none is left.
+/// origins.csv and, of contender 0, tracks.csv; late scans leave no row there. The files get their
+/// names by commit(); without it, or keep_partial(), none is left.
 class RunWriter final : public RunObserver {
  public:
   /// @param folder   must exist

@@ -128,8 +128,8 @@ void Scratch::release() {
 }
 
 Scratch Scratch::file_beside(const fs::path& target, int& descriptor) {
-  const std::string name = target.filename().string().substr(
-      0, kLongestName - kAfter.size() - kLetters - 1);
+  const std::string name =
+      target.filename().string().substr(0, kLongestName - kAfter.size() - kLetters - 1);
   const auto named = [&](const std::string& letters) {
     return target.parent_path() / (name + "." + letters + std::string(kAfter));
   };
@@ -144,9 +144,8 @@ Scratch Scratch::folder_in(const fs::path& folder) {
   const auto named = [&](const std::string& letters) {
     return folder / (std::string(kFolderBefore) + letters + std::string(kAfter));
   };
-  return Scratch(make_new(folder, named, [](const fs::path& path) {
-    return ::mkdir(path.c_str(), 0777) == 0;
-  }));
+  return Scratch(make_new(folder, named,
+                          [](const fs::path& path) { return ::mkdir(path.c_str(), 0777) == 0; }));
 }
 
 bool Scratch::is_folder_name(const fs::path& name) {

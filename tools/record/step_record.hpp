@@ -9,8 +9,8 @@
 
 namespace ghtrack {
 
-/// What one scan was to one tracker: what was true and what was seen at the instant of the scan, and
-/// what the tracker concluded once it had arrived.
+/// What one scan was to one tracker: what was true and what was seen at the instant of the scan,
+/// and what the tracker concluded once it had arrived.
 struct StepRecord {
   TruthSnapshot truth;
   Observation observation;

@@ -233,9 +233,8 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields,
                          : line.find(',') != std::string_view::npos ? ','
                                                                     : '\t';
   while (true) {
-    const std::size_t start =
-        quotes == 0 ? std::string_view::npos
-                    : line.find_first_not_of(separator == '\t' ? " " : " \t");
+    const std::size_t start = quotes == 0 ? std::string_view::npos
+                                          : line.find_first_not_of(separator == '\t' ? " " : " \t");
     std::string_view field;
     if (start != std::string_view::npos && line[start] == '"') {
       line.remove_prefix(start);
@@ -307,8 +306,7 @@ void append_hundredths(std::string& text, double value) {
   const double hundredths = std::abs(value) * 100.0;
   const double nearest = std::floor(hundredths + 0.5);
   // Near a tie the digits decide that the product has rounded away.
-  const bool is_clear =
-      hundredths < 1e12 && std::abs(std::abs(hundredths - nearest) - 0.5) > 1e-3;
+  const bool is_clear = hundredths < 1e12 && std::abs(std::abs(hundredths - nearest) - 0.5) > 1e-3;
   if (!is_clear) {
     fmt::format_to(std::back_inserter(text), "{:.2f}", value);
     return;

@@ -76,9 +76,9 @@ bool is_text(std::string_view text);
 /// @param point  what stands before the decimals: '.' or ','
 std::optional<double> parse_number(std::string_view text, char point = '.');
 
-/// The numbers of a line of nothing but commas, blanks before numbers, and numbers of few digits, as
-/// almost every line of a table of numbers is: what split_fields() and parse_number() would make of
-/// it, for a fraction of their work.
+/// The numbers of a line of nothing but commas, blanks before numbers, and numbers of few digits,
+/// as almost every line of a table of numbers is: what split_fields() and parse_number() would make
+/// of it, for a fraction of their work.
 /// @returns how many there are; 0 if the line is any other, or has more than there is room for
 std::size_t plain_numbers(std::string_view line, std::span<double> numbers);
 

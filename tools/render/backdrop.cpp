@@ -74,8 +74,8 @@ Viewport box_of(const ViewName& name, const Stage& stage) {
   return {name.pen.x, name.pen.y - letters, width, 1.3 * letters};
 }
 
-/// At the left end of its upper edge, as far as that is in the picture, beside close-ups; several in
-/// rows. What has no edge in the picture needs no name.
+/// At the left end of its upper edge, as far as that is in the picture, beside close-ups; several
+/// in rows. What has no edge in the picture needs no name.
 std::vector<ViewName> view_names(const Stage& stage) {
   const int letters = stage.style.letters(kNameLetters);
   const Viewport& area = stage.view.viewport();
@@ -102,7 +102,8 @@ std::vector<ViewName> view_names(const Stage& stage) {
                               std::max(top, area.bottom() - stage.style.length(40))) +
                        row}};
     for (const Viewport& covered : stage.covered) {
-      if (overlap(box_of(name, stage), covered)) name.pen.x = covered.right() + stage.style.length(8);
+      if (overlap(box_of(name, stage), covered))
+        name.pen.x = covered.right() + stage.style.length(8);
     }
     names.push_back(std::move(name));
   }

@@ -23,7 +23,7 @@ constexpr double kLeastRate = 1.0, kMostRate = 240.0;
 constexpr double kTolerance = 0.1;  // how early a picture may be shown, in periods
 
 bool is_picture(const fs::path& path) {
-  constexpr std::array<std::string_view, 8> kExtensions = {".png", ".jpg", ".jpeg", ".bmp",
+  constexpr std::array<std::string_view, 8> kExtensions = {".png", ".jpg",  ".jpeg", ".bmp",
                                                            ".tif", ".tiff", ".webp", ".ppm"};
   return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(path)) !=
          kExtensions.end();
@@ -38,8 +38,8 @@ cv::Mat read_picture(const fs::path& path) {
 void check_size(const fs::path& path, int width, int height) {
   if (width % 2 == 0 && height % 2 == 0) return;
   throw RequestError("the background '" + path.string() + "' has " + std::to_string(width) + "x" +
-                     std::to_string(height) + " pixels; both must be even, as H.264 asks: cut off " +
-                     "a row or a column");
+                     std::to_string(height) +
+                     " pixels; both must be even, as H.264 asks: cut off " + "a row or a column");
 }
 
 class Ground : public Background {
@@ -111,7 +111,8 @@ class Pictures : public Background {
     if (at_ == paths_.size()) return false;
     image = read_picture(paths_[at_]);
     if (image.cols != info_.width || image.rows != info_.height) {
-      throw RequestError("'" + paths_[at_].string() + "' has another size than the pictures before");
+      throw RequestError("'" + paths_[at_].string() +
+                         "' has another size than the pictures before");
     }
     ++at_;
     return true;

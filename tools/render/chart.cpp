@@ -9,7 +9,7 @@ namespace ghtrack::render {
 
 namespace {
 
-constexpr double kColumn = 110.0;  // [px] between numbers along the time axis, about
+constexpr double kColumn = 110.0;    // [px] between numbers along the time axis, about
 constexpr double kNumberRow = 34.0;  // [px] between numbers along the other, about
 
 double step_of(const std::vector<double>& ticks) {
@@ -59,7 +59,8 @@ void Chart::draw_axes(Canvas& canvas, std::u32string_view title) const {
     const Pixel foot = at(time, values_.low);
     canvas.line(foot, at(time, values_.high), style_.theme().minor_grid);
     canvas.text(fonts_.regular, tick_label(time, step_of(times)) + U" s", letters,
-                {foot.x, box_.bottom() + 1.4 * letters}, style_.theme().axis_text, Canvas::Align::kCentre);
+                {foot.x, box_.bottom() + 1.4 * letters}, style_.theme().axis_text,
+                Canvas::Align::kCentre);
   }
   canvas.text(fonts_.regular, title, style_.letters(13), {box_.left, area_.top + style_.length(17)},
               style_.theme().muted_text);

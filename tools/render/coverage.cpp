@@ -123,13 +123,11 @@ void Coverage::add_ring(Pixel centre, double radius, double thickness, double op
 void Coverage::add_disc(Pixel centre, double radius, double opacity) {
   const double reach = radius + 0.5;
   const auto reach_of = [&](double y) {
-    const double half =
-        std::sqrt(std::max(0.0, reach * reach - (y - centre.y) * (y - centre.y)));
+    const double half = std::sqrt(std::max(0.0, reach * reach - (y - centre.y) * (y - centre.y)));
     return Reach{centre.x - half, centre.x + half};
   };
-  add(centre.y - reach, centre.y + reach, opacity, reach_of, [&](double x, double y) {
-    return distance_of(x - centre.x, y - centre.y) - radius;
-  });
+  add(centre.y - reach, centre.y + reach, opacity, reach_of,
+      [&](double x, double y) { return distance_of(x - centre.x, y - centre.y) - radius; });
 }
 
 void Coverage::add_polygon(const std::vector<Pixel>& corners, double opacity) {

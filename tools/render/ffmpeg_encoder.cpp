@@ -77,8 +77,8 @@ std::vector<std::string> output_arguments(const std::string& extension) {
   std::map<std::string, std::vector<std::string>> formats{
       {".mp4",
        {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-x264-params",
-        "subme=1:me=dia:bframes=2:weightp=0", "-g", "60", "-threads", "4",
-        "-movflags", "+faststart"}},
+        "subme=1:me=dia:bframes=2:weightp=0", "-g", "60", "-threads", "4", "-movflags",
+        "+faststart"}},
       {".webm",
        {"-c:v", "libvpx-vp9", "-deadline", "realtime", "-cpu-used", "6", "-row-mt", "1", "-crf",
         "30", "-b:v", "0"}},

@@ -16,7 +16,8 @@ FootageWriter::FootageWriter(const FootageOptions& options) {
   check_request(request);
   std::error_code problem;
   const auto status = std::filesystem::status(options.background, problem);
-  const bool is_there = std::filesystem::is_regular_file(status) || std::filesystem::is_directory(status);
+  const bool is_there =
+      std::filesystem::is_regular_file(status) || std::filesystem::is_directory(status);
   if (!options.background.empty() && !is_there) {
     throw RequestError("the background '" + options.background.string() +
                        "' is no file and no folder");

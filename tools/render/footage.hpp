@@ -19,15 +19,15 @@ struct FootageOptions {
   /// A video, a folder of pictures in the order of their numbers, or one picture, such as a map,
   /// that stays. Empty: dark ground.
   std::filesystem::path background = {};
-  int width = 1280;   // of dark ground [px]
+  int width = 1280;  // of dark ground [px]
   int height = 720;
   std::optional<double> fps = {};  // of pictures and dark ground [Hz]; a video has its own
-  double trail = 2.0;         // how much of a track's past is shown [s]
+  double trail = 2.0;              // how much of a track's past is shown [s]
 };
 
 /// What a background turned out to be.
 struct BackgroundInfo {
-  int width = 0, height = 0;       // [px]
+  int width = 0, height = 0;          // [px]
   double fps = 30.0;                  // of the video that is written [Hz]
   bool moves = false;                 // it has pictures of its own; else as many as are wanted
   std::optional<std::size_t> images;  // how many; absent: not known before the end
@@ -37,7 +37,7 @@ struct BackgroundInfo {
 struct FootageTrack {
   int id = 0;
   Pixel position;
-  std::optional<Pixel> size = {};  // of its box
+  std::optional<Pixel> size = {};                        // of its box
   std::optional<std::pair<Pixel, Pixel>> residual = {};  // from where expected to where seen
   bool coasting = false;                                 // it was not seen
   std::string label = {};

@@ -122,19 +122,18 @@ class FootagePainter {
       const std::u32string text = drawable(track.label, 32);
       const double text_width = fonts_.bold.width(text, letters) + length(8);
       // A box is named at the middle of its upper edge, a ring where there is room around it.
-      const Pixel anchor =
-          track.size ? Pixel{track.position.x, track.position.y - 0.5 * track.size->y}
-                     : track.position;
+      const Pixel anchor = track.size
+                               ? Pixel{track.position.x, track.position.y - 0.5 * track.size->y}
+                               : track.position;
       const double reach = track.size ? length(2.0) : length(kRing + 2.0);
       requests.push_back({track.id, anchor, reach, text_width, 1.35 * letters});
-      obstacles.push_back(
-          {{anchor.x - reach, anchor.y - reach, 2.0 * reach, 2.0 * reach}});
+      obstacles.push_back({{anchor.x - reach, anchor.y - reach, 2.0 * reach, 2.0 * reach}});
       texts.push_back(text);
       tracks.push_back(&track);
     }
     const double edge = length(3);
-    const auto places = labels_.place(requests, obstacles,
-                                      {edge, edge, width - 2.0 * edge, height - 2.0 * edge});
+    const auto places =
+        labels_.place(requests, obstacles, {edge, edge, width - 2.0 * edge, height - 2.0 * edge});
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i]) continue;
       const Color color = kDark.track(tracks[i]->id);

@@ -11,8 +11,8 @@
 namespace ghtrack::render {
 
 /// A piece of a film in H.264, by libx264: a key frame and what follows until the next one. Its
-/// encoder knows nothing of other pieces, so that several can be made at a time, and the film has the
-/// same bytes whoever makes which.
+/// encoder knows nothing of other pieces, so that several can be made at a time, and the film has
+/// the same bytes whoever makes which.
 class H264Segment {
  public:
   /// How many images a piece has, but for the last one. A key frame as often keeps seeking quick.

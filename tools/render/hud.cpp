@@ -106,8 +106,7 @@ void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawi
   std::u32string regimes;
   for (const RegimeScore& score : panel.regimes) {
     if (!regimes.empty()) regimes += U"   ";
-    regimes += drawable(score.regime, 12) + U" " +
-               (score.rmse ? metres(*score.rmse) : U"–");
+    regimes += drawable(score.regime, 12) + U" " + (score.rmse ? metres(*score.rmse) : U"–");
   }
   // Who it is comes first; what finds no room beside that goes below.
   const Font& score_font = leads ? fonts.bold : fonts.regular;

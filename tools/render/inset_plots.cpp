@@ -102,7 +102,8 @@ void InsetPlots::draw_plot(Canvas& canvas, const Viewport& area, Quantity quanti
   const Chart chart(area, {from, from + seconds_}, values, style, fonts);
   chart.draw_axes(canvas, kTitles[quantity]);
   Canvas inside = canvas.within(chart.box());
-  const auto draw_curves = [&](const std::map<int, Curve>& curves, double thickness, bool is_truth) {
+  const auto draw_curves = [&](const std::map<int, Curve>& curves, double thickness,
+                               bool is_truth) {
     for (const auto& [id, curve] : curves) {
       std::vector<Pixel> line;  // a value that is not finite gives a gap
       for (const Sample& sample : curve.samples) {
@@ -123,10 +124,10 @@ void InsetPlots::draw(Canvas& canvas, const Viewport& area, const Style& style,
   const double key = draw_key(canvas, area, style, fonts);
   const double width = area.width / kQuantities;
   for (std::size_t i = 0; i < kQuantities; ++i)
-    draw_plot(canvas,
-              {area.left + static_cast<double>(i) * width, area.top + key, width,
-               area.height - key},
-              static_cast<Quantity>(i), style, fonts);
+    draw_plot(
+        canvas,
+        {area.left + static_cast<double>(i) * width, area.top + key, width, area.height - key},
+        static_cast<Quantity>(i), style, fonts);
 }
 
 }  // namespace ghtrack::render

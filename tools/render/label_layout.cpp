@@ -37,7 +37,8 @@ bool lies_within(const Viewport& inner, const Viewport& outer) {
          inner.bottom() <= outer.bottom();
 }
 
-/// Rectangles by the squares of a picture that they touch, to be found without a look at all others.
+/// Rectangles by the squares of a picture that they touch, to be found without a look at all
+/// others.
 class Squares {
  public:
   explicit Squares(const Viewport& area)
@@ -121,8 +122,7 @@ std::vector<std::optional<Viewport>> LabelLayout::place(const std::vector<LabelR
     std::optional<Viewport> best;
     for (int slot = 0; slot < directions * static_cast<int>(kDistances.size()); ++slot) {
       const Viewport place = candidate(request, slot);
-      double cost =
-          kDirectionCost * (slot % directions) + kDistanceCost * (slot / directions);
+      double cost = kDirectionCost * (slot % directions) + kDistanceCost * (slot / directions);
       if (previous != slots_.end() && previous->second != slot) cost += kMoveCost;
       if (!(cost < least) || !lies_within(place, area) || is_taken(place)) continue;
       obstacle_squares.each_near(place, [&](std::size_t i) {

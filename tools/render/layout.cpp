@@ -11,7 +11,7 @@ namespace {
 constexpr double kHudHeight = 56.0;
 constexpr double kHeaderHeight = 46.0;  // two lines
 constexpr double kPanelGap = 4.0;
-constexpr double kPlotShare = 0.2;      // of the picture's height
+constexpr double kPlotShare = 0.2;  // of the picture's height
 constexpr double kCloseUpMargin = 12.0;
 constexpr double kMarks = 24.0;  // around an object: its track, its detections
 
@@ -105,8 +105,7 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
   const double strip = has_plots ? kPlotShare * height : 0.0;
 
   Layout layout;
-  layout.hud = {0.0, 0.0, width,
-                options.layers.shows(Layer::kHud) ? style.room(kHudHeight) : 0.0};
+  layout.hud = {0.0, 0.0, width, options.layers.shows(Layer::kHud) ? style.room(kHudHeight) : 0.0};
   layout.legend = {0.0, height - legend_height, width, legend_height};
 
   const Viewport area{0.0, layout.hud.bottom(), width, layout.legend.top - layout.hud.bottom()};
@@ -161,7 +160,8 @@ std::vector<CloseUp> place_close_ups(const VideoOptions& options, const SceneDra
       }
     }
     tried.close_ups = wanted;
-    const auto last = std::find_if_not(tried.close_ups.rbegin(), tried.close_ups.rend(), says_where);
+    const auto last =
+        std::find_if_not(tried.close_ups.rbegin(), tried.close_ups.rend(), says_where);
     tried.close_ups.erase(std::next(last).base());
   }
   return tried.close_ups;

@@ -22,8 +22,8 @@ struct Layout {
 Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Style& style,
                double legend_height);
 
-/// Close-ups that say no corner get the first in which all of them hide nobody during the whole run,
-/// if need be smaller; if that cannot be, the last of them are left out.
+/// Close-ups that say no corner get the first in which all of them hide nobody during the whole
+/// run, if need be smaller; if that cannot be, the last of them are left out.
 std::vector<CloseUp> place_close_ups(const VideoOptions& options, const SceneDrawing& scene,
                                      const Style& style, double legend_height);
 

@@ -47,7 +47,8 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wi
       canvas.polygon({at(-4, 0), at(4, 0), at(3, 5), at(-3, 5)}, style.theme().truth);
       canvas.line(at(-9, 0), at(9, 0), style.theme().truth_edge, style.length(2));
       for (const double side : {-9.0, 9.0})
-        canvas.line(at(side - 4, -3), at(side + 4, -3), style.theme().truth_edge, style.length(1.5));
+        canvas.line(at(side - 4, -3), at(side + 4, -3), style.theme().truth_edge,
+                    style.length(1.5));
       break;
     case Sign::kDetection:
     case Sign::kSecondDetection:
@@ -104,7 +105,8 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wi
       canvas.ring(m, 9 * u, style.theme().detection, style.length(3));
       break;
     case Sign::kFieldOfView:
-      canvas.dashed({at(-12, 0), at(12, 0)}, style.theme().axis_text, 7 * u, 5 * u, style.length(1.3));
+      canvas.dashed({at(-12, 0), at(12, 0)}, style.theme().axis_text, 7 * u, 5 * u,
+                    style.length(1.3));
       break;
     case Sign::kWind:
       canvas.arrow({m.x - 0.5 * wind_arrow, m.y}, {m.x + 0.5 * wind_arrow, m.y}, 7 * u,

@@ -78,8 +78,8 @@ Picture::Picture(const VideoOptions& options, const SceneDrawing& scene)
         .slow = options.slow,
         .trail = trail_of(options, scene),
         .theme = &style_.theme()};
-    panels_.push_back({camera_.view(options.from, layout_.panels[i]),
-                       TrackMemory(manner, scene_.objects), {}});
+    panels_.push_back(
+        {camera_.view(options.from, layout_.panels[i]), TrackMemory(manner, scene_.objects), {}});
   }
 }
 
@@ -225,8 +225,8 @@ void Picture::draw_close_up(Canvas& canvas, const View& view, const VideoFrame& 
   const Pixel from = whole.to_pixel({view.world().min.x(), view.world().max.y()});
   const Pixel to = whole.to_pixel({view.world().max.x(), view.world().min.y()});
   Canvas around = canvas.within(layout_.panels[panel]);
-  around.outline(outline({from.x, from.y, to.x - from.x, to.y - from.y}), {style_.theme().muted_text, 0.8},
-                style_.length(1));
+  around.outline(outline({from.x, from.y, to.x - from.x, to.y - from.y}),
+                 {style_.theme().muted_text, 0.8}, style_.length(1));
 
   const Stage stage = stage_of(view, {});
   Canvas part = canvas.within(view.viewport());

@@ -21,12 +21,8 @@ constexpr Color kLines{226, 230, 235};
 constexpr Color kMeasurement{125, 133, 143};
 
 /// The palette's colours that show on white, the strongest first.
-constexpr std::array<Color, 6> kCurveColors{{{0, 114, 178},
-                                             {213, 94, 0},
-                                             {0, 158, 115},
-                                             {204, 121, 167},
-                                             {230, 159, 0},
-                                             {86, 180, 233}}};
+constexpr std::array<Color, 6> kCurveColors{
+    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();

@@ -77,7 +77,7 @@ class PieceMaker {
     segment_.reset();
   }
 
-  const cv::Mat& image() const { return image_; }                 // drawn last
+  const cv::Mat& image() const { return image_; }                // drawn last
   std::optional<std::size_t> latest() const { return latest_; }  // number of that frame
 
  private:
@@ -95,7 +95,7 @@ SceneDrawing with_wind_for_all(const SceneDrawing& scene) {
   SceneDrawing shared = scene;
   if (!scene.wind) return shared;
   shared.wind = [wind = scene.wind, mutex = std::make_shared<std::mutex>()](const Vec2& place,
-                                                                           double time) {
+                                                                            double time) {
     const std::lock_guard lock(*mutex);
     return wind(place, time);
   };
@@ -110,9 +110,9 @@ std::size_t makers_for(const VideoOptions& options, double duration) {
   return std::min(jobs, (frames + H264Segment::kImages - 1) / H264Segment::kImages);
 }
 
-/// Each maker has a thread and goes through all frames, as fast as its own pieces allow. Frames wait
-/// until the last maker has had them; no more of them than one piece for each maker, so that memory
-/// stays flat however long the film is.
+/// Each maker has a thread and goes through all frames, as fast as its own pieces allow. Frames
+/// wait until the last maker has had them; no more of them than one piece for each maker, so that
+/// memory stays flat however long the film is.
 class SegmentedVideo : public VideoSink {
  public:
   SegmentedVideo(const VideoOptions& options, const SceneDrawing& scene)
@@ -244,9 +244,9 @@ class SegmentedVideo : public VideoSink {
 
   std::mutex mutex_;  // of all below
   std::condition_variable changed_;
-  std::deque<Moment> moments_;        // that some maker has not taken yet
-  std::size_t dropped_ = 0;           // moments before those
-  std::vector<std::size_t> taken_;    // of all moments, by each maker
+  std::deque<Moment> moments_;      // that some maker has not taken yet
+  std::size_t dropped_ = 0;         // moments before those
+  std::vector<std::size_t> taken_;  // of all moments, by each maker
   bool is_complete_ = false;
   bool is_given_up_ = false;
   std::exception_ptr failure_;

@@ -66,8 +66,8 @@ std::size_t TrackMemory::color_for(const Trace& new_trace) const {
 }
 
 /// The first track of an object goes by its name. A later one shows its number, too: the name alone
-/// would hide that the identity was lost. Numbers are those of the files, where tracks that are counted
-/// have one from their birth on, so that most of them are skipped in pictures.
+/// would hide that the identity was lost. Numbers are those of the files, where tracks that are
+/// counted have one from their birth on, so that most of them are skipped in pictures.
 std::u32string TrackMemory::name_of(const TrackEstimate& track) const {
   const auto trace = traces_.find(track.id);
   if (trace == traces_.end() || !trace->second.object) return number_of(track);
@@ -116,8 +116,8 @@ void TrackMemory::take(const TrackSnapshot& tracks) {
   }
 }
 
-/// Whom tracks follow: it names and colours them. An object that one confirmed track followed before
-/// and another one follows now is a switch of identity.
+/// Whom tracks follow: it names and colours them. An object that one confirmed track followed
+/// before and another one follows now is a switch of identity.
 void TrackMemory::note_objects(const PanelFrame& panel) {
   for (const Pairing& pairing : panel.pairings) {
     const auto trace = traces_.find(pairing.track);

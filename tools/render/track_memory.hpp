@@ -61,7 +61,7 @@ class TrackMemory {
   void remember(const VideoFrame& frame, const PanelFrame& panel);
 
   const std::map<int, Trace>& traces() const { return traces_; }  // by track id
-  const std::vector<Past>& past() const { return past_; }  // of tracks that have ended
+  const std::vector<Past>& past() const { return past_; }         // of tracks that have ended
   const std::vector<Event>& events() const { return events_; }
   Color color_of(const TrackEstimate& track) const;
   /// Whom it follows, with its number if it took over from another track; or else its number.

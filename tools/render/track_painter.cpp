@@ -69,7 +69,8 @@ class TrackPainter {
     const double ring = length(is_tentative ? 6.0 : kEstimateRing);
     const double thickness = length(is_tentative ? 1.0 : 2.0);
     const Color color = memory_.color_of(track);
-    if (!is_tentative) canvas_.ring(at, ring, {stage_.style.theme().world, 0.55}, thickness + length(2.0));
+    if (!is_tentative)
+      canvas_.ring(at, ring, {stage_.style.theme().world, 0.55}, thickness + length(2.0));
     if (track.status != TrackStatus::kCoasting) return canvas_.ring(at, ring, color, thickness);
     std::vector<Pixel> outline = ellipse_outline(at, {ring, 0.0}, {0.0, ring});
     outline.push_back(outline.front());
@@ -83,8 +84,8 @@ class TrackPainter {
       if (event.what == TrackMemory::Happening::kLost)
         canvas_.cross(at, length(kEstimateRing), {event.color, 1.0 - age}, length(2));
       else
-        canvas_.ring(at, length(kEstimateRing + 3.0 + 13.0 * age), {stage_.style.theme().detection, 1.0 - age},
-                     length(3));
+        canvas_.ring(at, length(kEstimateRing + 3.0 + 13.0 * age),
+                     {stage_.style.theme().detection, 1.0 - age}, length(3));
     }
   }
 

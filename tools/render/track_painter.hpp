@@ -13,8 +13,8 @@ inline constexpr double kEstimateRing = 10.0;
 void draw_tracks(Canvas& canvas, const Stage& stage, const TrackMemory& memory,
                  const VideoFrame& frame, const PanelFrame& panel);
 
-/// Draws the paths as they are known afterwards, up to the time of a frame [s], as far back as trails
-/// reach.
+/// Draws the paths as they are known afterwards, up to the time of a frame [s], as far back as
+/// trails reach.
 void draw_smoothed(Canvas& canvas, const Stage& stage, const TrackMemory& memory,
                    const SmoothedPaths& paths, double time);
 

@@ -63,7 +63,8 @@ void draw_drone(Canvas& canvas, Pixel centre, double radius, double angle, const
                  centre.y - radius * (along * std::sin(angle) + up * std::cos(angle))};
   };
   const double thick = style.length(1.6);
-  canvas.polygon({at(-0.3, 0.12), at(0.3, 0.12), at(0.2, -0.35), at(-0.2, -0.35)}, style.theme().truth);
+  canvas.polygon({at(-0.3, 0.12), at(0.3, 0.12), at(0.2, -0.35), at(-0.2, -0.35)},
+                 style.theme().truth);
   canvas.line(at(-0.65, 0.05), at(0.65, 0.05), style.theme().truth_edge, style.length(2));
   for (const double side : {-0.65, 0.65}) {
     canvas.line(at(side, 0.05), at(side, 0.3), style.theme().truth_edge, thick);

@@ -22,7 +22,8 @@ class UnfinishedVideo {
   /// @throws OutputError, as keep(), if it does not
   void commit(std::size_t frames);
 
-  /// Verifies what has been written and leaves it under its partial name. Of nothing nothing is kept.
+  /// Verifies what has been written and leaves it under its partial name. Of nothing nothing is
+  /// kept.
   void keep(std::size_t frames);
 
  private:

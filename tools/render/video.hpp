@@ -47,7 +47,8 @@ struct Shot {
 struct CloseUp {
   ObjectId target = 0;
   double width = 10.0;  // [m] of the world across it
-  /// Absent: one in which it hides nobody during the whole run. Where there is none, it is left out.
+  /// Absent: one in which it hides nobody during the whole run. Where there is none, it is left
+  /// out.
   std::optional<VideoCorner> corner = VideoCorner::kTopRight;
   double share = 0.27;  // of the panel's width
 };
@@ -97,7 +98,7 @@ struct PanelDrawing {
 
 /// How well one kind of object has been followed so far.
 struct RegimeScore {
-  std::string regime;         // such as "ball"
+  std::string regime;          // such as "ball"
   std::optional<double> rmse;  // [m] of the positions; absent: nobody has been followed yet
 };
 
@@ -137,12 +138,13 @@ struct Pairing {
 
 /// What one tracker says at the time of a frame.
 struct PanelFrame {
-  TrackSnapshot tracks;           // the latest at the frame's time
+  TrackSnapshot tracks;                // the latest at the frame's time
   std::vector<TrackSnapshot> arrived;  // all since the frame before, with the latest
-  std::vector<Pairing> pairings;  // of that snapshot
-  std::optional<double> gospa;    // [m], running; shown if given
-  std::optional<double> rmse;     // [m] of the positions, running; shown and plotted if given
-  std::optional<double> missed = {};  // share of the targets' instants without a track; shown from 1 % on
+  std::vector<Pairing> pairings;       // of that snapshot
+  std::optional<double> gospa;         // [m], running; shown if given
+  std::optional<double> rmse;          // [m] of the positions, running; shown and plotted if given
+  std::optional<double> missed =
+      {};  // share of the targets' instants without a track; shown from 1 % on
   std::vector<RegimeScore> regimes;  // the same for each kind of object, if there are several
 };
 

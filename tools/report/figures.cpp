@@ -79,7 +79,8 @@ struct WorldView {
   int height = Chart::kHeight;
 };
 
-/// Curves are shown whole, unless a filter has lost its way: then as far as half of the world beyond.
+/// Curves are shown whole, unless a filter has lost its way: then as far as half of the world
+/// beyond.
 void add_estimates(const ExampleRun& example, WorldView& view) {
   constexpr double kBeyond = 0.5;
   const WorldView world = view;

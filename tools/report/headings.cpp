@@ -30,8 +30,7 @@ const schema::FieldInfo* info_in(const schema::VariantType& variant, bool by_kin
   return nullptr;
 }
 
-const schema::FieldInfo* info_in(const schema::StructType& fields,
-                                 std::span<const PathStep> path) {
+const schema::FieldInfo* info_in(const schema::StructType& fields, std::span<const PathStep> path) {
   for (const FieldType& field : fields.fields) {
     const schema::FieldInfo* found = nullptr;
     if (field.role == FieldType::Role::kField && field.key == path.front().key) {

@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <vector>
 #include <utility>
+#include <vector>
 
 #include "tools/report/figures.hpp"
 #include "tools/report/headings.hpp"
@@ -37,8 +37,8 @@ std::string_view css_of(Significance significance) {
   return leads(significance) ? to_string(significance) : "";
 }
 
-/// "0.318 ± 0.004, best; predicted 0.31": what one filter did. Where few runs make most of the mean,
-/// their median.
+/// "0.318 ± 0.004, best; predicted 0.31": what one filter did. Where few runs make most of the
+/// mean, their median.
 Json value_cell(const ComparisonRow* row) {
   if (row == nullptr) {
     return {{"text", ""}, {"half", ""}, {"verdict", ""},
@@ -117,7 +117,8 @@ std::string cell_id(std::size_t cell) { return fmt::format("scene-{}", cell + 1)
 
 nlohmann::json reference_names(const Comparison& comparison) {
   Json names = Json::array();
-  for (const Reference& reference : references_in(comparison)) names.push_back({{"title", reference.title}});
+  for (const Reference& reference : references_in(comparison))
+    names.push_back({{"title", reference.title}});
   return names;
 }
 

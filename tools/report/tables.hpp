@@ -18,7 +18,8 @@ nlohmann::json summary_tables(const Comparison& comparison);
 /// runs}]: all metrics of the regimes of a cell, and of the scene as a whole.
 nlohmann::json metric_rows(const Comparison& comparison, std::size_t cell);
 
-/// {filters, rows: [{object, regime, values, references}], left_out}: RMSE of position of the objects.
+/// {filters, rows: [{object, regime, values, references}], left_out}: RMSE of position of the
+/// objects.
 nlohmann::json object_table(const Comparison& comparison, std::size_t cell);
 
 /// [{title}] of `references`, which are [{text, sort}]: what errors may be held against.

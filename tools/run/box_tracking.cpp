@@ -154,10 +154,10 @@ class BoxOutput {
   bool from_first_sight_;
   bool waits_for_end_;
   const OnRows& on_rows_;
-  std::int32_t frame_ = 0;                                     // the latest
-  std::map<int, Track> tracks_;                                // that go on, by the tracker's ids
-  std::map<std::int32_t, std::vector<MotRow>> settled_;        // by frame, with the tracker's ids
-  std::unordered_map<std::int64_t, std::int64_t> numbers_;     // of tracks in the output
+  std::int32_t frame_ = 0;                                  // the latest
+  std::map<int, Track> tracks_;                             // that go on, by the tracker's ids
+  std::map<std::int32_t, std::vector<MotRow>> settled_;     // by frame, with the tracker's ids
+  std::unordered_map<std::int64_t, std::int64_t> numbers_;  // of tracks in the output
 };
 
 }  // namespace
@@ -213,9 +213,9 @@ std::string summary(const BoxTrackerConfig& config, const BoxTracking& tracking)
       "{} boxes in {} images, confidence {:.2f} ± {:.2f}; usual error of their sizes {:.3f} "
       "(learned); speed {:.3f} ({}) and its change {:.4f} ({}) box scales per image; ",
       tracking.boxes, tracking.images, learning.confidence.mean(), learning.confidence.deviation(),
-      std::sqrt(noise.usual * noise.size),
-      std::sqrt(noise.velocity), origin(config.initial_speed.has_value()),
-      std::sqrt(noise.manoeuvre), origin(config.acceleration.has_value()));
+      std::sqrt(noise.usual * noise.size), std::sqrt(noise.velocity),
+      origin(config.initial_speed.has_value()), std::sqrt(noise.manoeuvre),
+      origin(config.acceleration.has_value()));
   if (tracking.tracks == 0) {
     return line + fmt::format(
                       "no track was confirmed of {} begun: boxes.first_reach, .gate, "

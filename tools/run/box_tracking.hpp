@@ -55,13 +55,13 @@ struct BoxTracking {
   std::int64_t images = 0;      // that had some
   std::int32_t last_frame = 1;  // of them
   std::int64_t tracks = 0;      // that were confirmed
-  BoxTrackerState state;        // at the end, with what was learned and the counts of what was refused
+  BoxTrackerState state;  // at the end, with what was learned and the counts of what was refused
 };
 
-/// Tracks the boxes of a sequence. Rows are handed on as soon as nothing that comes can change them:
-/// at once by default; with `longest_gap` so many images later; with `from_first_sight` when the
-/// tracks that began before are confirmed or given up; with `fill` when those are over. Until then
-/// they are held in memory.
+/// Tracks the boxes of a sequence. Rows are handed on as soon as nothing that comes can change
+/// them: at once by default; with `longest_gap` so many images later; with `from_first_sight` when
+/// the tracks that began before are confirmed or given up; with `fill` when those are over. Until
+/// then they are held in memory.
 /// @param on_rows  gets the rows of one frame after the other, each by id; ids count from 1 in the
 /// order of appearance
 BoxTracking track_boxes(const BoxTrackerConfig& config, const BoxOutputConfig& output,

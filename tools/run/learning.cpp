@@ -107,9 +107,9 @@ std::string filter_text(const FilterConfig& filter) {
 
 std::string sensor_text(const LearnedSensor& sensor, const std::string& name) {
   const SensorTraits& traits = sensor.traits;
-  std::string line = fmt::format("sensor{}{}: noise {} along x, {} along y",
-                                 name.empty() ? "" : " ", name, text(sensor.noise.x),
-                                 text(sensor.noise.y));
+  std::string line =
+      fmt::format("sensor{}{}: noise {} along x, {} along y", name.empty() ? "" : " ", name,
+                  text(sensor.noise.x), text(sensor.noise.y));
   line += fmt::format("; detection probability {}; {} false detections a scan",
                       text(sensor.detection_probability), text(sensor.clutter));
   line += traits.coverage == Coverage::kPartial
@@ -162,9 +162,9 @@ std::vector<std::string> describe(const LearnedConfig& result) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
       "learned from {} scan{} in {} pass{}: {} track{} explain{} {:.0f} % of the detections",
-      learned.scans, learned.scans == 1 ? "" : "s", learned.passes,
-      learned.passes == 1 ? "" : "es", learned.tracks, learned.tracks == 1 ? "" : "s",
-      learned.tracks == 1 ? "s" : "", 100.0 * learned.explained));
+      learned.scans, learned.scans == 1 ? "" : "s", learned.passes, learned.passes == 1 ? "" : "es",
+      learned.tracks, learned.tracks == 1 ? "" : "s", learned.tracks == 1 ? "s" : "",
+      100.0 * learned.explained));
   for (std::size_t s = 0; s < learned.sensors.size(); ++s) {
     lines.push_back(sensor_text(learned.sensors[s], result.sensors[s]));
   }

@@ -63,7 +63,8 @@ SensorTraits traits_of(const OfflineSensor& sensor, double period) {
 }
 
 MissingScans::MissingScans(std::vector<SensorTraits> sensors) {
-  for (SensorTraits& traits : sensors) sensors_.push_back({.traits = std::move(traits), .last = {}});
+  for (SensorTraits& traits : sensors)
+    sensors_.push_back({.traits = std::move(traits), .last = {}});
 }
 
 void MissingScans::fill(const Scan& scan, const std::function<bool(const Scan&)>& process) {

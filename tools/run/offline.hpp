@@ -67,10 +67,11 @@ struct OfflineSensor {
                         "spread over; by default that of all detections",
              .above = 0.0,
              .maximum = 1e60});
-    v.field("scan", &OfflineSensor::scan,
-            {.meaning = "whether a scan shows the `whole` field of view, or `partial`: one object of "
-                        "many, as a rotating radar or AIS does; 'period' is then the time between "
-                        "two looks at the same object; by default as the times suggest"});
+    v.field(
+        "scan", &OfflineSensor::scan,
+        {.meaning = "whether a scan shows the `whole` field of view, or `partial`: one object of "
+                    "many, as a rotating radar or AIS does; 'period' is then the time between "
+                    "two looks at the same object; by default as the times suggest"});
   }
 
   template <class Report>
@@ -116,8 +117,8 @@ struct OfflineConfig : OfflineSensor {
 
 /// Recorded scans, one after the other.
 struct ScanSource {
-  std::function<bool(Scan&)> next;  // the next scan by time; false after the last
-  double period = 0.0;              // typical time between scans [s]; 0: unknown
+  std::function<bool(Scan&)> next;                  // the next scan by time; false after the last
+  double period = 0.0;                              // typical time between scans [s]; 0: unknown
   std::vector<std::string> sensors{std::string()};  // names, by index
 };
 
@@ -151,8 +152,8 @@ class MissingScans {
   std::vector<Sensor> sensors_;
 };
 
-/// Tracks recorded scans. A detection whose covariance is zero, which is unknown, has the noise that
-/// the configuration says. Instants without a detection are no rows of a file: where scans are
+/// Tracks recorded scans. A detection whose covariance is zero, which is unknown, has the noise
+/// that the configuration says. Instants without a detection are no rows of a file: where scans are
 /// missing, empty ones take their place until no track is left that could miss anything, so that
 /// the length of a gap costs nothing.
 /// @param on_scan   gets the tracks after each scan, the empty ones included

@@ -52,8 +52,8 @@ class Tracking {
                                              const ScanSource& source) {
     std::vector<SensorTraits> traits;
     for (const std::string& name : source.sensors) {
-      traits.push_back(ghtrack::traits_of(config.sensor(name),
-                                          source.period > 0.0 ? source.period : 1.0));
+      traits.push_back(
+          ghtrack::traits_of(config.sensor(name), source.period > 0.0 ? source.period : 1.0));
     }
     return traits;
   }
@@ -83,10 +83,10 @@ void keep_ids(const TrackerState& before, TrackerState& now) {
     const Prediction there{estimate(old.filter).position, position_covariance(old.filter)};
     for (Track& renewed : now.tracks) {
       if (renewed.id <= 0) continue;
-      const double distance = mahalanobis_distance(
-          there, {.position = estimate(renewed.filter).position,
-                  .covariance = position_covariance(renewed.filter),
-                  .label = {}});
+      const double distance =
+          mahalanobis_distance(there, {.position = estimate(renewed.filter).position,
+                                       .covariance = position_covariance(renewed.filter),
+                                       .label = {}});
       if (distance < kSame) pairs.push_back({distance, &old, &renewed});
     }
   }
@@ -135,17 +135,20 @@ TrackerState track_online(const OfflineConfig& config, const ScanSource& scans,
     }
     if (seen < next) continue;
     next = static_cast<std::size_t>(kMore * static_cast<double>(seen)) + 1;
-    const ScanSource again{.next = [&lately, at = std::size_t{0}](Scan& one) mutable {
-                             if (at == lately.size()) return false;
-                             one = lately[at++];
-                             return true;
-                           },
+    const ScanSource again{.next =
+                               [&lately, at = std::size_t{0}](Scan& one) mutable {
+                                 if (at == lately.size()) return false;
+                                 one = lately[at++];
+                                 return true;
+                               },
                            .period = scans.period,
                            .sensors = scans.sensors};
     const LearnedConfig learned = learn_offline(config, again);
     on_learned(learned);
     Tracking renewed(learned.config, scans);
-    for (const Scan& one : lately) renewed.process(one, [](const TrackerState&) {}, nullptr);
+    for (const Scan& one : lately)
+      renewed.process(
+          one, [](const TrackerState&) {}, nullptr);
     if (tracking) keep_ids(tracking->state, renewed.state);
     tracking.emplace(std::move(renewed));
   }

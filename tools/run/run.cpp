@@ -33,7 +33,9 @@ class Run {
       const RunObservers& observers, std::span<const double> frame_times)
       : scene_(scene),
         truth_(truth),
-        setting_{.objects = truth.objects(), .classes = detectable_classes(truth.objects()), .seed = scene.seed},
+        setting_{.objects = truth.objects(),
+                 .classes = detectable_classes(truth.objects()),
+                 .seed = scene.seed},
         observers_(observers),
         frame_times_(frame_times) {
     for (const Contender& contender : contenders) trackers_.push_back(contender.tracker);
@@ -88,7 +90,8 @@ class Run {
   }
 
   void track(SensedScan scan) {
-    StepRecord record{.truth = *scan.truth, .observation = std::move(scan.observation), .tracks = {}};
+    StepRecord record{
+        .truth = *scan.truth, .observation = std::move(scan.observation), .tracks = {}};
     for (std::size_t i = 0; i < trackers_.size(); ++i) {
       record.contender = i;
       record.fate = trackers_[i].step(record.observation);

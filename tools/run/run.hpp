@@ -15,9 +15,9 @@ namespace ghtrack {
 ///
 ///   truth → sensors → scan ──(latency)──→ each contender → StepRecord → each observer
 ///
-/// Scans are made in the order of time and reach the contenders in the order of arrival (scan time +
-/// latency; with equal arrivals by time and sensor). Contenders do not know of one another. Memory
-/// does not grow with the duration: what is worth keeping is the observers' choice.
+/// Scans are made in the order of time and reach the contenders in the order of arrival (scan time
+/// + latency; with equal arrivals by time and sensor). Contenders do not know of one another.
+/// Memory does not grow with the duration: what is worth keeping is the observers' choice.
 /// @param scene        its sensors look, its seed chooses all that they draw
 /// @param truth        asked at the instants of scans and frames
 /// @param frame_times  ascending [s]: when the observers want the truth for a picture. Asking for

@@ -52,7 +52,8 @@ std::vector<SeriesMeasurement> measure(const WalkSeries& walk, double, std::uint
       for (const double thing : walk.map) {
         if (thing != there(place)) wrong.push_back(thing);
       }
-      if (!wrong.empty()) z = wrong[static_cast<std::size_t>(other * static_cast<double>(wrong.size()))];
+      if (!wrong.empty())
+        z = wrong[static_cast<std::size_t>(other * static_cast<double>(wrong.size()))];
     }
     measurements.push_back({z, static_cast<double>(place)});
   }
@@ -133,18 +134,18 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
     const Kinematics<1>& posterior = estimate(filter);
     belief.posterior = belief_of(filter);
     if (!belief.posterior.empty()) track.beliefs.push_back(std::move(belief));
-    SeriesRow row{.k = static_cast<int>(i) + 1,
-                  .t = now.time.value_or(scene.dt *
-                                         static_cast<double>(i + (guess_is_first ? 0 : 1))),
-                  .z = now.z,
-                  .truth = now.truth,
-                  .x_pred = prior.position[0],
-                  .dx_pred = prior.velocity[0],
-                  .ddx_pred = prior.acceleration[0],
-                  .residual = std::nullopt,
-                  .x = posterior.position[0],
-                  .dx = posterior.velocity[0],
-                  .ddx = posterior.acceleration[0]};
+    SeriesRow row{
+        .k = static_cast<int>(i) + 1,
+        .t = now.time.value_or(scene.dt * static_cast<double>(i + (guess_is_first ? 0 : 1))),
+        .z = now.z,
+        .truth = now.truth,
+        .x_pred = prior.position[0],
+        .dx_pred = prior.velocity[0],
+        .ddx_pred = prior.acceleration[0],
+        .residual = std::nullopt,
+        .x = posterior.position[0],
+        .dx = posterior.velocity[0],
+        .ddx = posterior.acceleration[0]};
     if (residual) {
       row.residual = (*residual)[0];
       innovations += std::abs(*row.residual);

@@ -32,7 +32,7 @@ struct SeriesTrack {
   int order = 1;
   std::vector<SeriesRow> rows;
   std::vector<SeriesBelief> beliefs;  // of a histogram filter, as many
-  std::optional<double> rmse;  // √ mean (x − truth)², over all rows
+  std::optional<double> rmse;         // √ mean (x − truth)², over all rows
   std::optional<double>
       rmse_without_guess;  // the same without a first row that is the guess itself
   double mai = 0.0;        // mean |z − x_pred| over the measurements used

@@ -40,17 +40,19 @@ std::vector<std::string> read_measurements(SeriesScene& scene, const std::filesy
                              .skip_bad_rows = given->skip_bad_rows,
                              .pause = pause});
   if (reader.axes() > 1) {
-    throw InputError(fmt::format(
-        "{}: error: a series has one value a row, and this table has {}; columns: z=NAME says which",
-        path, reader.axes()));
+    throw InputError(
+        fmt::format("{}: error: a series has one value a row, and this table has {}; columns: "
+                    "z=NAME says which",
+                    path, reader.axes()));
   }
   if (const auto step = reader.typical_step()) scene.dt = *step;
   bool knows_truth = true;
   while (const auto row = reader.next()) {
     if (given->measurements.size() == kMostRows) {
-      throw InputError(fmt::format("{}: error: more than {} rows are too many for a scene; `ghtrack "
-                                   "filter` takes any number",
-                                   path, kMostRows));
+      throw InputError(
+          fmt::format("{}: error: more than {} rows are too many for a scene; `ghtrack "
+                      "filter` takes any number",
+                      path, kMostRows));
     }
     given->measurements.push_back(row->z ? (*row->z)[0] : kMissed);
     if (row->time) given->times.push_back(*row->time);

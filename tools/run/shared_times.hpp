@@ -12,8 +12,8 @@ namespace ghtrack {
 std::vector<Scan> first_of(const ScanSource& scans);
 
 /// Whether the detections that share a time are one object in a row rather than several at once, as
-/// in a log of ten a second whose times are whole seconds: from each to the next in the file the way
-/// goes on in the same direction, also from the last of a time to the first of the next one.
+/// in a log of ten a second whose times are whole seconds: from each to the next in the file the
+/// way goes on in the same direction, also from the last of a time to the first of the next one.
 /// @return how many share a time, on average; nothing if they are several objects
 std::optional<double> rows_of_one_object(std::span<const Scan> scans);
 

@@ -46,8 +46,8 @@ std::vector<SmoothedSnapshot> TrackHistory::smoothed() const {
     std::vector<double> fits;
     std::transform(filters.begin(), filters.end(), std::back_inserter(fits), fit);
     const auto best = std::max_element(fits.begin(), fits.end()) - fits.begin();
-    const std::vector<Smoothed> moments = ghtrack::smoothed(
-        filters[static_cast<std::size_t>(best)], sigma_, period_, track.moments);
+    const std::vector<Smoothed> moments =
+        ghtrack::smoothed(filters[static_cast<std::size_t>(best)], sigma_, period_, track.moments);
     for (std::size_t i = 0; i < moments.size(); ++i) {
       const auto [snapshot, row] = track.rows[i];
       all[snapshot].smoothed[row] = moments[i];

@@ -19,8 +19,8 @@ struct SmoothedSnapshot {
   std::vector<Smoothed> smoothed;  // as many
 };
 
-/// Keeps what a tracker says, to smooth its tracks when all is known (smoothed()). Of several filters
-/// side by side or mixed, the one that explains a track best carries it back.
+/// Keeps what a tracker says, to smooth its tracks when all is known (smoothed()). Of several
+/// filters side by side or mixed, the one that explains a track best carries it back.
 class TrackHistory {
  public:
   explicit TrackHistory(const TrackerDesign& design);

@@ -7,7 +7,7 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kExtentRate = 10.0;                    // [Hz]
+constexpr double kExtentRate = 10.0;                // [Hz]
 constexpr double kMostBytes = 512.0 * 1024 * 1024;  // of a recording
 
 }  // namespace
@@ -24,7 +24,8 @@ std::shared_ptr<const TruthSnapshot> SimulatedTruth::at(double time) {
 
 TruthRecording record(TruthSource& truth, const std::vector<double>& instants,
                       const std::function<void()>& on_step) {
-  TruthRecording recording{.objects = truth.objects(), .snapshots = {}, .displacements = {}, .events = {}};
+  TruthRecording recording{
+      .objects = truth.objects(), .snapshots = {}, .displacements = {}, .events = {}};
   recording.snapshots.reserve(instants.size());
   for (const double time : instants) {
     on_step();
@@ -37,7 +38,8 @@ TruthRecording record(TruthSource& truth, const std::vector<double>& instants,
 }
 
 double recorded_bytes(std::size_t objects, std::size_t instants) {
-  const std::size_t each = sizeof(TruthSnapshot) + objects * (sizeof(TruthState) + sizeof(BodyPose));
+  const std::size_t each =
+      sizeof(TruthSnapshot) + objects * (sizeof(TruthState) + sizeof(BodyPose));
   return static_cast<double>(instants) * static_cast<double>(each);
 }
 

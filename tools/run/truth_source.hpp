@@ -47,9 +47,7 @@ class SimulatedTruth final : public TruthSource {
     latest_ = nullptr;
   }
   std::int64_t missed_collisions() const override { return world_.missed_collisions(); }
-  const std::vector<Displacement>& displacements() const override {
-    return world_.displacements();
-  }
+  const std::vector<Displacement>& displacements() const override { return world_.displacements(); }
   const std::vector<WorldEvent>& events() const override { return world_.events(); }
 
  private:

@@ -9,10 +9,11 @@
 namespace ghtrack {
 namespace {
 
-// In crowds that no sensor could resolve, messages settle slowly and their precision is worth little.
+// In crowds that no sensor could resolve, messages settle slowly and their precision is worth
+// little.
 constexpr double kMostRounds = 1000.0;
 constexpr double kFewestRounds = 10.0;
-constexpr double kMostWork = 1e7;  // rounds times pairs
+constexpr double kMostWork = 1e7;    // rounds times pairs
 constexpr double kConverged = 1e-6;  // greatest relative change of a message in a round
 
 /// The messages along every pair, in the order of the table.

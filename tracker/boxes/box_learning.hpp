@@ -39,8 +39,8 @@ class SpeedStatistics {
 };
 
 /// What an assumed variance is to be multiplied by, from squared distances that would be χ² with 2
-/// degrees of freedom if it were right. The median does not mind a wrong pairing: the variance rises
-/// by a step when a distance exceeds the median, and falls by it otherwise (stochastic
+/// degrees of freedom if it were right. The median does not mind a wrong pairing: the variance
+/// rises by a step when a distance exceeds the median, and falls by it otherwise (stochastic
 /// approximation, Robbins & Monro 1951).
 class VarianceFactor {
  public:

@@ -263,16 +263,16 @@ double BoxTrack::existence() const { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 BoxNoise box_noise(const BoxTrackerConfig& config, const BoxLearning& learning) {
   const auto square = [](double sigma) { return sigma * sigma; };
-  return {.place = square(config.position_noise),
-          .size = square(config.size_noise),
-          .velocity = config.initial_speed ? square(*config.initial_speed)
-                                           : learning.speed.variance(square(kAssumedSpeed)),
-          .manoeuvre = config.acceleration
-                           ? square(*config.acceleration)
-                           : square(kAssumedManoeuvre) * learning.manoeuvres.factor(),
-          .size_drift = square(config.size_drift),
-          .usual = std::min(1.0, learning.sizes.error(assumed_sizes(config)) /
-                                     square(config.size_noise))};
+  return {
+      .place = square(config.position_noise),
+      .size = square(config.size_noise),
+      .velocity = config.initial_speed ? square(*config.initial_speed)
+                                       : learning.speed.variance(square(kAssumedSpeed)),
+      .manoeuvre = config.acceleration ? square(*config.acceleration)
+                                       : square(kAssumedManoeuvre) * learning.manoeuvres.factor(),
+      .size_drift = square(config.size_drift),
+      .usual =
+          std::min(1.0, learning.sizes.error(assumed_sizes(config)) / square(config.size_noise))};
 }
 
 BoxTrackerState step(const BoxTrackerConfig& config, BoxTrackerState state, const BoxScan& scan) {

@@ -53,12 +53,13 @@ struct BoxTrackerConfig {
              .meaning = "1-sigma error of a box's centre per axis, in scales",
              .above = 0.0,
              .maximum = 10.0});
-    v.field("size_noise", &BoxTrackerConfig::size_noise,
-            {.unit = "1",
-             .meaning = "1-sigma error of width and height, as a share of them, with room for objects "
-                        "that are hidden in part; what a usual box errs by is learned",
-             .above = 0.0,
-             .maximum = 10.0});
+    v.field(
+        "size_noise", &BoxTrackerConfig::size_noise,
+        {.unit = "1",
+         .meaning = "1-sigma error of width and height, as a share of them, with room for objects "
+                    "that are hidden in part; what a usual box errs by is learned",
+         .above = 0.0,
+         .maximum = 10.0});
     v.field("acceleration", &BoxTrackerConfig::acceleration,
             {.unit = "1",
              .meaning = "1-sigma change of the velocity from image to image, in scales per image; "
@@ -158,8 +159,8 @@ struct BoxTrack : BoxEstimate {
   int unseen = 0;  // images since its last detection
   int hits = 1;    // detections so far
   HitHistory history = {};
-  double log_odds = 0.0;                      // of its existence
-  std::optional<std::size_t> detection = {};  // of this image
+  double log_odds = 0.0;                           // of its existence
+  std::optional<std::size_t> detection = {};       // of this image
   std::array<SizeSighting, 2> earlier_sizes = {};  // one and two whiles ago
   bool is_believed = false;  // while it coasts: its box is more likely to be right than wrong
 

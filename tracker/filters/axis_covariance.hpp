@@ -71,17 +71,16 @@ AxisCovariance<Number> corrected(const AxisCovariance<Number>& p, const AxisGain
 ///
 /// The random acceleration of kPiecewiseConstant and the jumps of kRandomWalk are drawn anew every
 /// `renewal` seconds: a step of n renewals, n ≥ 1, adds as much as n steps of one renewal, and a
-/// shorter one its share, so that the error grows alike however a time is cut. With an infinite renewal they are drawn anew at every step, whatever
-/// its length, as textbooks have it.
+/// shorter one its share, so that the error grows alike however a time is cut. With an infinite
+/// renewal they are drawn anew at every step, whatever its length, as textbooks have it.
 /// @param order      highest derivative of the filter: 0, 1 or 2
 /// @param intensity  kPiecewiseConstant, kRandomWalk: 1-sigma acceleration for orders 0 and 1,
 ///                   1-sigma change of acceleration per step for order 2 [m/s²];
 ///                   kWhiteNoise: spectral density of the first derivative that the filter does
 ///                   not carry [m²/s, m²/s³, m²/s⁵]
 /// @param renewal    [s]; white noise has none
-AxisCovariance<double> process_noise(
-    ProcessModel model, int order, double intensity, double dt,
-    double renewal = std::numeric_limits<double>::infinity());
+AxisCovariance<double> process_noise(ProcessModel model, int order, double intensity, double dt,
+                                     double renewal = std::numeric_limits<double>::infinity());
 
 /// The intensity for which a filter has tracking index λ at step dt.
 double intensity_of_index(ProcessModel model, double index, double sigma, double dt);

@@ -44,8 +44,7 @@ struct ScalarKalmanConfig {
   static void describe(Visitor& v) {
     v.field("p0", &ScalarKalmanConfig::p0,
             {.meaning = "variance of the initial guess", .minimum = 0.0});
-    v.field("q", &ScalarKalmanConfig::q,
-            {.meaning = "variance that a step adds", .minimum = 0.0});
+    v.field("q", &ScalarKalmanConfig::q, {.meaning = "variance that a step adds", .minimum = 0.0});
     v.field("r", &ScalarKalmanConfig::r, {.meaning = "variance of a measurement", .above = 0.0});
     v.field("u", &ScalarKalmanConfig::u, {.meaning = "movement in a step"});
   }

@@ -201,8 +201,7 @@ void filter_series(const Gains& gains, double dt, const SeriesState& start,
 
   const auto state_before = [&](std::size_t step) {
     const double* const end = &estimates[kRow * step];
-    return order == 1 ? SeriesState{end[-2], end[-1], 0.0}
-                      : SeriesState{end[-3], end[-2], end[-1]};
+    return order == 1 ? SeriesState{end[-2], end[-1], 0.0} : SeriesState{end[-3], end[-2], end[-1]};
   };
   for (std::size_t i = 1; i < kPieces; ++i) {
     mend<order>(k, state_before(i * length), z.subspan(i * length, length),

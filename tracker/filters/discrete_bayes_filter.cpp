@@ -76,8 +76,8 @@ bool DiscreteBayesFilter::update(const Vector& z) {
 }
 
 void DiscreteBayesFilter::choose() {
-  likeliest_ = static_cast<std::size_t>(std::max_element(belief_.begin(), belief_.end()) -
-                                        belief_.begin());
+  likeliest_ =
+      static_cast<std::size_t>(std::max_element(belief_.begin(), belief_.end()) - belief_.begin());
   estimate_.position[0] = static_cast<double>(likeliest_);
 }
 

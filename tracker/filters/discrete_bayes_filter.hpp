@@ -9,7 +9,8 @@
 
 namespace ghtrack {
 
-/// A histogram filter as a scene says it: the places 0, 1, … of a row, and what a sensor reads there.
+/// A histogram filter as a scene says it: the places 0, 1, … of a row, and what a sensor reads
+/// there.
 struct DiscreteBayesConfig {
   static constexpr std::string_view kind = "discrete-bayes";
   static constexpr std::string_view about =
@@ -50,8 +51,9 @@ struct DiscreteBayesConfig {
              .minimum = 0.0,
              .min_items = 1,
              .max_items = 1001});
-    v.field("ring", &DiscreteBayesConfig::ring,
-            {.meaning = "the last place is beside the first; otherwise what leaves the row is lost"});
+    v.field(
+        "ring", &DiscreteBayesConfig::ring,
+        {.meaning = "the last place is beside the first; otherwise what leaves the row is lost"});
   }
 
   template <class Report>

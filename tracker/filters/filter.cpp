@@ -211,7 +211,8 @@ std::string_view name(const Filter& filter) {
 }
 
 std::string_view model_name(const Filter& filter) {
-  if (const auto* several = std::get_if<MultipleModelFilter>(&filter)) return several->leader().name;
+  if (const auto* several = std::get_if<MultipleModelFilter>(&filter))
+    return several->leader().name;
   if (const auto* mixed = std::get_if<ImmFilter>(&filter)) return mixed->leader().name;
   return {};
 }

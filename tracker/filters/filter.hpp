@@ -119,8 +119,8 @@ std::string_view model_name(const Filter& filter);
 /// The filter with designed gains that leads, if it is one: only those have a lag apart from their
 /// predicted error.
 const GainFilter<2>* designed_gain_filter(const Filter& filter);
-/// Such as "g=0.1 h=0.005"; for a Kalman filter the gains that it settles at; empty if the filter does
-/// not settle.
+/// Such as "g=0.1 h=0.005"; for a Kalman filter the gains that it settles at; empty if the filter
+/// does not settle.
 std::string gains_text(const Filter& filter);
 /// Nothing if the filter does not settle.
 std::optional<Gains> steady_gains(const Filter& filter);

@@ -119,31 +119,29 @@ MotionFilter mode_of(const GainFilterConfig<Order>& config, double sigma, double
     motion.process_intensity = 0.0;
     motion.implied = implied_noise(schedule.steady, sigma, dt);
   }
-  return MotionFilter({.motion = motion,
-                       .sigma = sigma,
-                       .interval = dt,
-                       .initial_speed = errors.initial_speed});
+  return MotionFilter(
+      {.motion = motion, .sigma = sigma, .interval = dt, .initial_speed = errors.initial_speed});
 }
 
 template <int Order>
 MotionFilter mode_of(const KalmanConfig<Order>& config, double sigma, double dt) {
   const KalmanModel model = designed(config, sigma, dt);
-  return MotionFilter({.motion = PolynomialMotion{.order = Order,
-                                                  .process_model = model.process_model,
-                                                  .process_intensity = model.process_intensity,
-                                                  .renewal = dt,
-                                                  .initial_acceleration =
-                                                      model.initial_acceleration},
-                       .sigma = sigma,
-                       .interval = dt,
-                       .initial_speed = model.initial_speed});
+  return MotionFilter(
+      {.motion = PolynomialMotion{.order = Order,
+                                  .process_model = model.process_model,
+                                  .process_intensity = model.process_intensity,
+                                  .renewal = dt,
+                                  .initial_acceleration = model.initial_acceleration},
+       .sigma = sigma,
+       .interval = dt,
+       .initial_speed = model.initial_speed});
 }
 
 template <Propagation Way>
 MotionFilter mode_of(const MotionFilterConfig<Way>& config, double sigma, double dt) {
-  const auto motion = std::visit(
-      [&](const auto& chosen) { return motion_of(chosen, config.initial_acceleration); },
-      config.motion);
+  const auto motion =
+      std::visit([&](const auto& chosen) { return motion_of(chosen, config.initial_acceleration); },
+                 config.motion);
   return MotionFilter({.motion = motion,
                        .propagation = Way,
                        .sigma = sigma,

@@ -27,8 +27,8 @@ GainDesign designed(const GainFilterConfig<Order, S>& config, double sigma, doub
 template <int Order>
 KalmanModel designed(const KalmanConfig<Order>& config, double sigma, double dt);
 
-/// The filter of a motion and process noise that a configuration stands for: of designed gains those
-/// that they imply. It is what interacting models mix, and what a smoother carries back.
+/// The filter of a motion and process noise that a configuration stands for: of designed gains
+/// those that they imply. It is what interacting models mix, and what a smoother carries back.
 /// @throws std::invalid_argument if the gains are unstable
 MotionFilter equivalent_motion(const SingleFilterConfig& config, double sigma, double dt);
 

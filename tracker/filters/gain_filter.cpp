@@ -51,9 +51,9 @@ Gains larger(const Gains& a, const Gains& b) {
 template <int D>
 GainFilter<D>::Design::Design(const GainSchedule& gains, const ErrorModel& model)
     : schedule(gains), errors(model) {
-  has_belief = gains.source == GainSource::kTable && is_stable(gains.steady) &&
-               (gains.irregular_time == IrregularTime::kGainsFromCovariance ||
-                std::isfinite(model.huber));
+  has_belief =
+      gains.source == GainSource::kTable && is_stable(gains.steady) &&
+      (gains.irregular_time == IrregularTime::kGainsFromCovariance || std::isfinite(model.huber));
   if (!has_belief) return;
   implied = implied_noise(gains.steady, model.sigma, gains.interval);
   settled = steady_covariance(implied, gains.steady.order, model.sigma, gains.interval);
@@ -107,9 +107,11 @@ bool GainFilter<D>::start(const Vector& z, const Matrix& covariance) {
   residual_.reset();
   covariance_ = on_all_axes<Axes>({});
   covariance_.xx = variance;
-  if (order >= 1) covariance_.vv.setConstant(design_->errors.initial_speed * design_->errors.initial_speed);
+  if (order >= 1)
+    covariance_.vv.setConstant(design_->errors.initial_speed * design_->errors.initial_speed);
   if (order >= 2) {
-    covariance_.aa.setConstant(design_->errors.initial_acceleration * design_->errors.initial_acceleration);
+    covariance_.aa.setConstant(design_->errors.initial_acceleration *
+                               design_->errors.initial_acceleration);
   }
   belief_ = noise_ = covariance_;
   elapsed_ = 0.0;
@@ -126,9 +128,9 @@ bool GainFilter<D>::predict(double dt) {
   const Kinematics<D> next = extrapolated(estimate_, dt);
   AxisCovariance<Axes> covariance = extrapolated(covariance_, dt);
   if (has_process_noise()) {
-    covariance += on_all_axes<Axes>(process_noise(design_->errors.process_model, design_->schedule.steady.order,
-                                                  design_->errors.process_intensity, dt,
-                                                  design_->errors.renewal));
+    covariance += on_all_axes<Axes>(
+        process_noise(design_->errors.process_model, design_->schedule.steady.order,
+                      design_->errors.process_intensity, dt, design_->errors.renewal));
   }
   if (!(dt > 0.0) || !std::isfinite(dt) || !next.is_finite() || !is_finite(covariance)) {
     ++refusals_.times;
@@ -178,7 +180,8 @@ void GainFilter<D>::leave_schedule() {
 template <int D>
 void GainFilter<D>::return_to_schedule() {
   for (int axis = 0; axis < D; ++axis) {
-    if (!is_near(belief_.xx[axis], design_->settled.xx) || !is_near(belief_.vv[axis], design_->settled.vv) ||
+    if (!is_near(belief_.xx[axis], design_->settled.xx) ||
+        !is_near(belief_.vv[axis], design_->settled.vv) ||
         !is_near(belief_.aa[axis], design_->settled.aa)) {
       return;
     }
@@ -213,13 +216,15 @@ auto GainFilter<D>::as_scheduled(const AxisGain<Axes>& gain) const -> Scheduled 
 }
 
 /// Is the residual beyond the Huber limit, and to be shortened? It says nothing of outliers before
-/// all derivatives are known, and one that repeats itself on the same side is no outlier: the target
-/// has moved otherwise than believed. A measurement too rough to see it does not speak against it.
+/// all derivatives are known, and one that repeats itself on the same side is no outlier: the
+/// target has moved otherwise than believed. A measurement too rough to see it does not speak
+/// against it.
 template <int D>
 bool GainFilter<D>::doubts(const Vector& residual, const AxisCovariance<Axes>& belief,
                            const Axes& variance) {
   constexpr int kMostInARow = 2;
-  if (!std::isfinite(design_->errors.huber) || updates_ <= design_->schedule.steady.order) return false;
+  if (!std::isfinite(design_->errors.huber) || updates_ <= design_->schedule.steady.order)
+    return false;
   const auto would_be_far = [&](const Vector& distance) {
     return (distance.array().square() / (belief.xx + variance)).sum() >
            design_->errors.huber * design_->errors.huber;
@@ -277,8 +282,8 @@ bool GainFilter<D>::update_by_table(const Vector& z, const Axes& variance) {
   return true;
 }
 
-/// Corrects with the best gain for an error known. The error of a doubtful residual is taken to be as
-/// much larger as it takes for the pull of the limit itself (Huber 1964).
+/// Corrects with the best gain for an error known. The error of a doubtful residual is taken to be
+/// as much larger as it takes for the pull of the limit itself (Huber 1964).
 /// @param belief  the error, which is corrected, too; may be covariance_ itself
 template <int D>
 bool GainFilter<D>::update_by(AxisCovariance<Axes>& belief, const Vector& z, const Axes& variance,
@@ -348,7 +353,8 @@ void GainFilter<D>::adopt(const Knowledge<D>& known) {
     covariance_.vv.setConstant(design_->errors.initial_speed * design_->errors.initial_speed);
   }
   if (order >= 2) {
-    covariance_.aa.setConstant(design_->errors.initial_acceleration * design_->errors.initial_acceleration);
+    covariance_.aa.setConstant(design_->errors.initial_acceleration *
+                               design_->errors.initial_acceleration);
   }
   if (order >= 1 && known.order >= 1) {
     estimate_.velocity = known.state.velocity;

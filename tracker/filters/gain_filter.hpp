@@ -38,9 +38,9 @@ struct ErrorModel {
 ///
 /// Given gains are meant for the nominal interval. Where the schedule says
 /// IrregularTime::kGainsFromCovariance, a scan at any other time and a second sensor at the same
-/// instant, and with a Huber limit a residual beyond it, are met with the gains of the Kalman filter
-/// whose process noise the given gains imply (implied_noise()), and with the measurement's own
-/// error; the given gains return when that filter has settled and scans are on time again.
+/// instant, and with a Huber limit a residual beyond it, are met with the gains of the Kalman
+/// filter whose process noise the given gains imply (implied_noise()), and with the measurement's
+/// own error; the given gains return when that filter has settled and scans are on time again.
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
 /// leave the filter as it was. @ingroup gh_family
@@ -92,7 +92,9 @@ class GainFilter {
   /// Goes on from what another filter knows at this instant; derivatives that it does not know are
   /// as uncertain as at first sight. The start-up is over.
   void adopt(const Knowledge<D>& known);
-  Knowledge<D> knowledge() const { return {design_->schedule.steady.order, estimate_, covariance_}; }
+  Knowledge<D> knowledge() const {
+    return {design_->schedule.steady.order, estimate_, covariance_};
+  }
 
   bool is_started() const { return started_; }
   int updates() const { return updates_; }
@@ -139,7 +141,9 @@ class GainFilter {
     Gains gains;
     double interval = 1.0;
   };
-  Matrix nominal_covariance() const { return design_->errors.sigma * design_->errors.sigma * Matrix::Identity(); }
+  Matrix nominal_covariance() const {
+    return design_->errors.sigma * design_->errors.sigma * Matrix::Identity();
+  }
   Scheduled scheduled() const;
   Scheduled as_scheduled(const AxisGain<Axes>& gain) const;
   bool has_process_noise() const { return design_->errors.process_intensity > 0.0; }
@@ -168,8 +172,8 @@ class GainFilter {
   double elapsed_ = 0.0;  // time since the last measurement used
   int updates_ = 0;
   int misses_ = 0;
-  int far_in_a_row_ = 0;               // residuals beyond the Huber limit, on one side
-  Vector last_far_ = Vector::Zero();   // the latest of them
+  int far_in_a_row_ = 0;              // residuals beyond the Huber limit, on one side
+  Vector last_far_ = Vector::Zero();  // the latest of them
   bool started_ = false;
   bool starting_up_ = true;
   bool on_schedule_ = true;  // the table's gains are due

@@ -38,9 +38,9 @@ constexpr std::array<std::pair<std::string_view, StartUp>, 3> enum_names(StartUp
 enum class IrregularTime {
   kGainsFromCovariance,  // those of the Kalman filter whose process noise the gains imply, until
                          // it has settled and scans are the nominal time apart again
-  kFixedGains,         // the same g, h, k; velocity changes by h r / (time since the last scan)
-  kGainsFromInterval,  // gains designed for the time since the last scan
-  kGainsFromElapsed,   // gains designed for the time since the last measurement used
+  kFixedGains,           // the same g, h, k; velocity changes by h r / (time since the last scan)
+  kGainsFromInterval,    // gains designed for the time since the last scan
+  kGainsFromElapsed,     // gains designed for the time since the last measurement used
 };
 constexpr std::array<std::pair<std::string_view, IrregularTime>, 4> enum_names(IrregularTime) {
   return {{{"gains-from-covariance", IrregularTime::kGainsFromCovariance},

@@ -19,8 +19,8 @@ struct Lifted {
 };
 
 Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
-  const bool is_alike = from.motion().index() == to.motion().index() &&
-                        from.state().size() == to.state().size();
+  const bool is_alike =
+      from.motion().index() == to.motion().index() && from.state().size() == to.state().size();
   if (is_alike) return {from.state(), from.covariance()};
   Lifted known{to.state(), to.covariance()};
   const Eigen::Index n = known.x.size();
@@ -166,9 +166,8 @@ bool ImmFilter::update(const Measurement& measured) {
                                [&](Mode& mode) { return mode.filter.update(measured); });
   if (all) next.weigh();
   const bool is_position = std::holds_alternative<PositionModel>(measured.model);
-  next.chain_.update(next.widest_variance(), is_position
-                                                 ? measured.r.trace()
-                                                 : std::numeric_limits<double>::infinity());
+  next.chain_.update(next.widest_variance(),
+                     is_position ? measured.r.trace() : std::numeric_limits<double>::infinity());
   next.measured_.clear();
   next.combine();
   if (!all || !next.is_finite()) {
@@ -186,9 +185,10 @@ bool ImmFilter::update(const Measurement& measured) {
 /// Gives the modes weights by how well each has foreseen the measurement.
 void ImmFilter::weigh() {
   const auto log_of = [](const Mode& mode) { return mode.filter.log_likelihood(); };
-  const double best = log_of(*std::max_element(
-      modes_.begin(), modes_.end(),
-      [&](const Mode& a, const Mode& b) { return log_of(a) < log_of(b); }));
+  const double best =
+      log_of(*std::max_element(modes_.begin(), modes_.end(), [&](const Mode& a, const Mode& b) {
+        return log_of(a) < log_of(b);
+      }));
   std::vector<double> weights;
   double sum = 0.0;
   for (const Mode& mode : modes_) {
@@ -220,8 +220,8 @@ void ImmFilter::combine() {
   covariance_.setZero();
   for (const Mode& mode : modes_) {
     const Vector d = mode.filter.estimate().position - estimate_.position;
-    covariance_ += mode.weight * (mode.filter.innovation_covariance(Matrix::Zero()) +
-                                  Matrix(d * d.transpose()));
+    covariance_ += mode.weight *
+                   (mode.filter.innovation_covariance(Matrix::Zero()) + Matrix(d * d.transpose()));
   }
 }
 

@@ -27,8 +27,8 @@ struct NoiseDensities {
 ///   acceleration  (h² − 2 g Γ) S
 ///   velocity      g² S − 2h − Γ − P_vv − P_va − P_aa/4 − q_acceleration/3 − q_jerk/20
 /// For gains that ring more than any Kalman filter would (for order 1 h above
-/// 3(2 − g) − √(3(g² − 12 g + 12))) a density would be negative; it is taken as none, which leaves a
-/// filter that answers manoeuvres as quickly.
+/// 3(2 − g) − √(3(g² − 12 g + 12))) a density would be negative; it is taken as none, which leaves
+/// a filter that answers manoeuvres as quickly.
 /// @param gains  stable
 /// @param sigma  [m], > 0
 /// @param dt     T [s], > 0

@@ -17,7 +17,7 @@ struct KalmanModel {
   double sigma = 1.0;     // of a measurement, per axis, unless an update says otherwise [m]
   double interval = 1.0;  // nominal time between updates [s], of the steady gains
   ProcessModel process_model = ProcessModel::kPiecewiseConstant;
-  double process_intensity = 1.0;     // see process_noise()
+  double process_intensity = 1.0;                            // see process_noise()
   double renewal = std::numeric_limits<double>::infinity();  // see process_noise() [s]
   double initial_speed = 0.0;         // 1-sigma velocity per axis at first sight [m/s]
   double initial_acceleration = 0.0;  // the same for the acceleration [m/s²]

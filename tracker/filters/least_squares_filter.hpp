@@ -13,10 +13,10 @@ namespace ghtrack {
 /// far, updated one by one. It forgets its initial guess, zero by default, with measurement
 /// order + 1; before that its derivatives mean nothing.
 ///
-/// While measurements are dt apart the gains are the closed ones of Zarchan & Musoff. From the first
-/// miss or uneven step on they come from the times themselves: with τ the time of a measurement
-/// after now and N = Σ φ φᵀ, φ = (1, τ, τ²/2)ᵀ, over all of them, the latest included, the gain of
-/// its residual is the first column of N⁻¹. @ingroup gh_family
+/// While measurements are dt apart the gains are the closed ones of Zarchan & Musoff. From the
+/// first miss or uneven step on they come from the times themselves: with τ the time of a
+/// measurement after now and N = Σ φ φᵀ, φ = (1, τ, τ²/2)ᵀ, over all of them, the latest included,
+/// the gain of its residual is the first column of N⁻¹. @ingroup gh_family
 template <int D>
 class LeastSquaresFilter {
  public:
@@ -58,8 +58,8 @@ class LeastSquaresFilter {
   std::optional<Vector> residual_ = {};
   Gains used_ = {};
   std::array<double, 5> moments_ = {};  // Σ τⁱ of all measurements, τ ≤ 0 their time after now [sⁱ]
-  double elapsed_ = 0.0;  // since the latest measurement
-  bool is_even_ = true;   // measurements have been dt apart
+  double elapsed_ = 0.0;                // since the latest measurement
+  bool is_even_ = true;                 // measurements have been dt apart
   int updates_ = 0;
   Refusals refusals_ = {};
 };

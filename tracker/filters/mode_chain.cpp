@@ -8,8 +8,8 @@
 namespace ghtrack {
 namespace {
 
-constexpr double kSame = 1e-6;      // relative; times are rounded
-constexpr double kPatience = 3.0;   // nominal intervals
+constexpr double kSame = 1e-6;     // relative; times are rounded
+constexpr double kPatience = 3.0;  // nominal intervals
 
 }  // namespace
 

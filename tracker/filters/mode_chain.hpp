@@ -44,7 +44,7 @@ class ModeChain {
   double modes_;
   double switching_;
   double interval_;
-  double nominal_;        // variance of a measurement, summed over the axes [m²]
+  double nominal_;  // variance of a measurement, summed over the axes [m²]
   double elapsed_ = 0.0;
   double waiting_ = 0.0;  // time before that without transitions [s]
   double variance_;       // that makes them due [m²]

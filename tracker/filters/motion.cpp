@@ -119,9 +119,7 @@ StateComponent component_of(const TargetMotion& motion, int i) {
 
 FirstGuess first_guess_of(const TargetMotion& motion, int) {
   struct Guess {
-    FirstGuess operator()(const PolynomialMotion& m) const {
-      return {0.0, m.initial_acceleration};
-    }
+    FirstGuess operator()(const PolynomialMotion& m) const { return {0.0, m.initial_acceleration}; }
     FirstGuess operator()(const CoordinatedTurn& m) const { return {0.0, m.initial_turn_rate}; }
     FirstGuess operator()(const Ballistic& m) const { return {m.drag, m.drag_sigma}; }
   };

@@ -54,8 +54,9 @@ struct CoordinatedTurn {
   static void describe(Visitor& v) {
     v.field("spectral_density", &CoordinatedTurn::spectral_density,
             {.unit = "m²/s³", .meaning = "power of the noise in the acceleration", .minimum = 0.0});
-    v.field("turn_density", &CoordinatedTurn::turn_density,
-            {.unit = "rad²/s³", .meaning = "power of the noise in the turn's rate", .minimum = 0.0});
+    v.field(
+        "turn_density", &CoordinatedTurn::turn_density,
+        {.unit = "rad²/s³", .meaning = "power of the noise in the turn's rate", .minimum = 0.0});
     v.field("initial_turn_rate", &CoordinatedTurn::initial_turn_rate,
             {.unit = "rad/s",
              .meaning = "1-sigma rate of turn of a target at first sight",

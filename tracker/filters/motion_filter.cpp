@@ -179,8 +179,7 @@ bool MotionFilter::update(const Measurement& m) {
     return false;
   };
   if (!started_ || !m.z.allFinite() || !m.r.allFinite()) return refuse();
-  const PredictedMeasurement at_mean =
-      predicted(m.model, x_.head<2>(), x_.segment<2>(2));
+  const PredictedMeasurement at_mean = predicted(m.model, x_.head<2>(), x_.segment<2>(2));
   if (!at_mean.z.allFinite()) return refuse();
   const bool is_position = std::holds_alternative<PositionModel>(m.model);
   if (model_.propagation == Propagation::kExtended || is_position) {
@@ -209,8 +208,7 @@ bool MotionFilter::update(const Measurement& m) {
 
 /// K = C S⁻¹, x = x' + K r, P = P' − K S Kᵀ for the covariance C of state and measurement.
 bool MotionFilter::correct(const MeasuredVector& residual, const MeasuredCovariance& s,
-                           const Cross& cross,
-                           const std::optional<Vector>& residual_in_position) {
+                           const Cross& cross, const std::optional<Vector>& residual_in_position) {
   // With S = L Lᵀ and W = C L⁻ᵀ: x = x' + W L⁻¹ r, P = P' − W Wᵀ.
   const MeasuredCovariance root = lower_root(s);
   if (!(root.diagonal().array() > 0.0).all()) return false;
@@ -224,8 +222,9 @@ bool MotionFilter::correct(const MeasuredVector& residual, const MeasuredCovaria
   p = 0.5 * (p + p.transpose()).eval();
   if (!x.allFinite() || !p.allFinite()) return false;
 
-  log_likelihood_ = -0.5 * whitened.squaredNorm() - root.diagonal().array().log().sum() -
-                    0.5 * static_cast<double>(residual.size()) * portable::log(2.0 * std::numbers::pi);
+  log_likelihood_ =
+      -0.5 * whitened.squaredNorm() - root.diagonal().array().log().sum() -
+      0.5 * static_cast<double>(residual.size()) * portable::log(2.0 * std::numbers::pi);
   prior_ = estimate_;
   x_ = x;
   p_ = p;

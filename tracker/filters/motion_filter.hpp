@@ -69,7 +69,9 @@ class MotionFilter {
   /// Of a measured position, z minus the predicted one [m]; of other measurements the correction
   /// that they made to the position.
   const std::optional<Vector>& residual() const { return residual_; }
-  Vector position_sigma() const { return position_covariance().diagonal().cwiseMax(0.0).cwiseSqrt(); }
+  Vector position_sigma() const {
+    return position_covariance().diagonal().cwiseMax(0.0).cwiseSqrt();
+  }
   Matrix innovation_covariance(const Matrix& measurement) const {
     return measurement + position_covariance();
   }
@@ -88,7 +90,9 @@ class MotionFilter {
 
  private:
   Matrix nominal_covariance() const { return model_.sigma * model_.sigma * Matrix::Identity(); }
-  Matrix position_covariance() const { return started_ ? Matrix(p_.topLeftCorner<2, 2>()) : Matrix::Zero(); }
+  Matrix position_covariance() const {
+    return started_ ? Matrix(p_.topLeftCorner<2, 2>()) : Matrix::Zero();
+  }
   Kinematics<2> kinematics() const;
   bool correct(const MeasuredVector& residual, const MeasuredCovariance& s,
                const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 3>& cross,

@@ -43,8 +43,7 @@ double staying(const MultipleModelFilter::Model& model, double leaving) {
 
 MultipleModelFilter::MultipleModelFilter(std::vector<Model> models, double switching)
     : models_(std::move(models)),
-      chain_(models_.size(), switching,
-             models_.empty() ? 1.0 : interval_of(models_.front().filter),
+      chain_(models_.size(), switching, models_.empty() ? 1.0 : interval_of(models_.front().filter),
              models_.empty() ? 1.0 : sigma_of(models_.front().filter)) {
   share_weights();
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Cholesky for matrices of a few rows whose size is known at run time: some lines of our own compile
-// in a twentieth of the time of Eigen's.
+// Cholesky for matrices of a few rows whose size is known at run time: some lines of our own
+// compile in a twentieth of the time of Eigen's.
 
 namespace ghtrack {
 

@@ -60,8 +60,8 @@ std::vector<Smoothed> smoothed(const SingleFilterConfig& config, double sigma, d
     if (i > first) {
       const double elapsed = track[i].time - track[i - 1].time;
       if (elapsed > 0.0) {
-        steps.back().next = carried(filter.motion(), filter.propagation(), steps.back().x,
-                                    steps.back().p, elapsed);
+        steps.back().next =
+            carried(filter.motion(), filter.propagation(), steps.back().x, steps.back().p, elapsed);
         filter.predict(elapsed);
       }
     }

@@ -23,8 +23,8 @@ struct Smoothed {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the position [m²]
 };
 
-/// Follows a track with all measurements, later ones included (Rauch, Tung & Striebel 1965): forward
-/// the filter, then backward
+/// Follows a track with all measurements, later ones included (Rauch, Tung & Striebel 1965):
+/// forward the filter, then backward
 ///   G = C P'⁻¹,  x_s = x + G (x_s' − x'),  P_s = P + G (P_s' − P') Gᵀ
 /// with C the covariance of the state with its prediction x', P'. Filters with designed gains are
 /// smoothed as the Kalman filter whose process noise their gains imply (equivalent_motion()): the

@@ -8,17 +8,17 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kFewest = 8;     // detections
-constexpr std::size_t kMost = 2000;    // that are looked at
+constexpr std::size_t kFewest = 8;   // detections
+constexpr std::size_t kMost = 2000;  // that are looked at
 constexpr std::size_t kLookAhead = 64;
-constexpr double kSingle = 0.75;       // share of the scans with one detection
-constexpr double kElsewhere = 10.0;    // how much farther than the way of an object
-constexpr double kBack = 0.3;          // of that: this close it is the same object again
-constexpr double kPatience = 0.9;      // of the objects that come back: as long as these take
+constexpr double kSingle = 0.75;     // share of the scans with one detection
+constexpr double kElsewhere = 10.0;  // how much farther than the way of an object
+constexpr double kBack = 0.3;        // of that: this close it is the same object again
+constexpr double kPatience = 0.9;    // of the objects that come back: as long as these take
 
 double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() +
-                  static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }

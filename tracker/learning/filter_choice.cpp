@@ -37,8 +37,8 @@ KalmanCaConfig accelerating(double density, double initial_speed, double initial
   return config;
 }
 
-ImmConfig mixed(const std::vector<std::pair<const char*, double>>& densities,
-                double initial_speed, double switching = ImmConfig().switching) {
+ImmConfig mixed(const std::vector<std::pair<const char*, double>>& densities, double initial_speed,
+                double switching = ImmConfig().switching) {
   ImmConfig config;
   config.switching = switching;
   for (const auto& [name, density] : densities) {

@@ -23,8 +23,8 @@ double log_likelihood(const FilterConfig& filter, std::span<const Path* const> p
                       std::span<const Eigen::Vector2d> variance, double interval);
 
 /// Interacting filters that span the tracking indices that there may be: from one steadier than the
-/// usual process noise to one whose velocity may turn round in an interval. Nothing that they track can
-/// leave them soon, whatever it does.
+/// usual process noise to one whose velocity may turn round in an interval. Nothing that they track
+/// can leave them soon, whatever it does.
 ImmConfig bank(double process_density, double initial_speed, double interval);
 
 /// The filter that makes what the tracks were given likeliest: a Kalman filter of nearly constant

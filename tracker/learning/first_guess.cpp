@@ -14,11 +14,11 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kMostLooks = 150;    // that are looked at, in the middle of three
-constexpr std::size_t kMostMiddles = 8;    // detections of one look
-constexpr std::size_t kPredecessors = 5;   // of one detection
-constexpr double kMostUneven = 3.0;        // ratio of the two times
-constexpr double kLeastEvidence = 5.0;     // below which nothing seems to move on
+constexpr std::size_t kMostLooks = 150;   // that are looked at, in the middle of three
+constexpr std::size_t kMostMiddles = 8;   // detections of one look
+constexpr std::size_t kPredecessors = 5;  // of one detection
+constexpr double kMostUneven = 3.0;       // ratio of the two times
+constexpr double kLeastEvidence = 5.0;    // below which nothing seems to move on
 constexpr std::array kShares = {0.05, 0.15, 0.4, 0.8, 0.98};
 
 /// A detection, one that may be the same target's before it, and how well a third one fits.
@@ -92,8 +92,7 @@ void collect(const std::vector<SensorLook>& looks, Sample& sample) {
           const double ratio = (c.time - b.time) / elapsed;
           if (!(ratio > 1.0 / kMostUneven && ratio < kMostUneven)) continue;
           const double f2 = 1.0 + (1.0 + ratio) * (1.0 + ratio) + ratio * ratio;
-          const Eigen::Vector2d residual =
-              c.position - b.position - velocity * (c.time - b.time);
+          const Eigen::Vector2d residual = c.position - b.position - velocity * (c.time - b.time);
           if (residual.squaredNorm() / f2 >= least) continue;
           least = residual.squaredNorm() / f2;
           factor = f2;
@@ -113,8 +112,7 @@ void drop_held(std::vector<Pair>& pairs) {
   constexpr double kRounding = 1e-18;  // of the greatest squared residual
   double most = 0.0;
   for (const Pair& pair : pairs) most = std::max(most, pair.squared_residual);
-  std::erase_if(pairs,
-                [&](const Pair& pair) { return pair.squared_residual <= kRounding * most; });
+  std::erase_if(pairs, [&](const Pair& pair) { return pair.squared_residual <= kRounding * most; });
 }
 
 /// The greatest number that all of these are multiples of, by Euclid's algorithm; 0 if that is
@@ -148,8 +146,8 @@ std::vector<double> noises_of(const std::vector<Pair>& pairs, double rounding) {
     longest = std::max(longest, residuals.back());
   }
   std::sort(residuals.begin(), residuals.end());
-  const double least = std::max({0.3 * residuals[residuals.size() / 20], 1e-9 * longest,
-                                 rounding / std::sqrt(12.0)});
+  const double least = std::max(
+      {0.3 * residuals[residuals.size() / 20], 1e-9 * longest, rounding / std::sqrt(12.0)});
   const double most = std::max(residuals[residuals.size() * 9 / 10], 2.0 * least);
   std::vector<double> noises;
   for (int i = 0; i < kNoises; ++i) {

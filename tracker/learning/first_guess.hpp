@@ -31,9 +31,9 @@ Eigen::Vector2d rounding(std::span<const std::vector<SensorLook>> sensors);
 /// Finds the scales of noise and speed without a tracker and without units, from three looks in
 /// turn: a detection b, one before it, a, and the nearest to where the line from a to b leads, c.
 /// Of a target the residual, divided by its factor f = √(1 + (1 + α)² + α²), α the ratio of the
-/// times, is normal with the noise; of chance it is spread as the detections are. Of the detections b
-/// a share p goes on, each after one of the a from which it would be no faster than some speed. The
-/// evidence is
+/// times, is normal with the noise; of chance it is spread as the detections are. Of the detections
+/// b a share p goes on, each after one of the a from which it would be no faster than some speed.
+/// The evidence is
 ///   Σ_b ln(1 − p + p mean_a N(c; a, b, σ² f²) / density);
 /// the noise, share and speed for which it is greatest are returned.
 /// @param sensors  of each sensor its looks, in the order of time

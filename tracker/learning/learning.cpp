@@ -20,11 +20,11 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kMostPasses = 6;          // with filters of constant velocity
-constexpr double kFirstDetection = 0.8; // probability, until it is known
-constexpr double kFirstIndex = 0.3;     // squared tracking index q T³ / σ²
-constexpr double kFalseAtLeast = 0.02;  // of the detections, until it is known
-constexpr double kClearlyBetter = 5.0;        // in ln p: by which a costlier filter has to be better
+constexpr int kMostPasses = 6;            // with filters of constant velocity
+constexpr double kFirstDetection = 0.8;   // probability, until it is known
+constexpr double kFirstIndex = 0.3;       // squared tracking index q T³ / σ²
+constexpr double kFalseAtLeast = 0.02;    // of the detections, until it is known
+constexpr double kClearlyBetter = 5.0;    // in ln p: by which a costlier filter has to be better
 constexpr std::size_t kFewestTracks = 2;  // for a class to get a filter of its own
 constexpr std::size_t kFewestFixes = 30;
 
@@ -96,13 +96,14 @@ std::optional<double> spread_of(const std::vector<Eigen::Vector2d>& places) {
       squared.push_back((places[i] - places[j]).squaredNorm());
     }
   }
-  const auto at = squared.begin() + static_cast<std::ptrdiff_t>(
-                                        kNearest * static_cast<double>(squared.size()));
+  const auto at =
+      squared.begin() + static_cast<std::ptrdiff_t>(kNearest * static_cast<double>(squared.size()));
   std::nth_element(squared.begin(), at, squared.end());
   return std::numbers::pi * *at / kNearest;
 }
 
-/// How far from the parabola through the three before it a fix of any path is at most, per axis [m].
+/// How far from the parabola through the three before it a fix of any path is at most, per axis
+/// [m].
 Eigen::Vector2d roughness(const std::vector<Path>& paths) {
   Eigen::Vector2d most = Eigen::Vector2d::Zero();
   for (const Path& path : paths) {
@@ -245,18 +246,18 @@ class Learner {
         std::max(scales ? 0.5 * scales->speed : noise / interval_, noise / interval_);
     const double density = kFirstIndex * noise * noise / portable::pow(interval_, 3);
     p.motion.process_density[kAnyClass] = {density, 0.0, 0.0};
-    const double real = scales ? std::min(scales->share / (kFirstDetection * kFirstDetection), 1.0)
-                               : 0.5;
+    const double real =
+        scales ? std::min(scales->share / (kFirstDetection * kFirstDetection), 1.0) : 0.5;
     p.existence = config_.existence;
     for (std::size_t s = 0; s < said_.size(); ++s) {
       const SensorSaid& said = said_[s];
       const auto given_or = [](const std::optional<double>& given, double otherwise) {
         return given ? Learned::given(*given) : Learned{otherwise, 0.0, 0.0};
       };
-      p.motion.noise.push_back(
-          said.noise ? LearnedMotion::Noise{Learned::given(said.noise->x()),
-                                          Learned::given(said.noise->y())}
-                     : LearnedMotion::Noise{{noise, 0.0, 0.0}, {noise, 0.0, 0.0}});
+      p.motion.noise.push_back(said.noise
+                                   ? LearnedMotion::Noise{Learned::given(said.noise->x()),
+                                                          Learned::given(said.noise->y())}
+                                   : LearnedMotion::Noise{{noise, 0.0, 0.0}, {noise, 0.0, 0.0}});
       p.detection_probability.push_back(given_or(said.detection_probability, kFirstDetection));
       double seen = 0.0;
       for (const Scan& scan : scans_) {
@@ -274,8 +275,8 @@ class Learner {
     p.filters = config_.filters;
     if (gives_filters()) return;
     KalmanCvConfig filter;
-    filter.model = process::WhiteNoise<1>{
-        .spectral_density = p.motion.process_density.at(kAnyClass).value};
+    filter.model =
+        process::WhiteNoise<1>{.spectral_density = p.motion.process_density.at(kAnyClass).value};
     filter.initial_speed = p.motion.initial_speed;
     p.filters[kAnyClass] = filter;
   }
@@ -585,7 +586,7 @@ class Learner {
   std::vector<std::vector<double>> times_;  // of each sensor's scans
   std::vector<Eigen::Vector2d> seen_;       // of each sensor: the sides of the box of detections
   double detections_ = 0.0;
-  double extent_ = 0.0;    // the longest side
+  double extent_ = 0.0;                                 // the longest side
   Eigen::Vector2d rounding_ = Eigen::Vector2d::Zero();  // the step of the places [m]
   double interval_ = 1.0;  // typical time between two detections of a target
   int passes_ = 0;

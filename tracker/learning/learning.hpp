@@ -46,10 +46,10 @@ struct LearnedTracker {
   std::vector<LearnedSensor> sensors;
   std::map<std::string, LearnedClass> classes;  // none if the filters are given
   double initial_speed = 0.0;                   // [m/s]
-  double explained = 0.0;  // share of the detections that tracks were given
-  int tracks = 0;          // that it was learned from
-  int scans = 0;           // the same
-  int passes = 0;          // how often the tracker ran over them
+  double explained = 0.0;                       // share of the detections that tracks were given
+  int tracks = 0;                               // that it was learned from
+  int scans = 0;                                // the same
+  int passes = 0;                               // how often the tracker ran over them
 };
 
 /// Learns what is not said from recorded scans, without units: if all places and times were

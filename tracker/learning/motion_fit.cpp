@@ -21,7 +21,7 @@ constexpr double kSteadiest = 1e-6;
 constexpr double kNimblest = 1e4;
 constexpr double kUsual = 1e-2;
 constexpr double kOutOfBounds = -1e300;  // for ln p
-constexpr double kSpreadOfUsual = 4.0;  // of its ln
+constexpr double kSpreadOfUsual = 4.0;   // of its ln
 
 /// What the innovations of one axis sum up to.
 struct Innovations {
@@ -121,7 +121,8 @@ class Fit {
  private:
   /// @param power  2: a standard deviation, whose variance is meant
   static Parameter parameter(const Learned& learned, double power, double step) {
-    return {.value = power * portable::log(learned.value), .step = step, .is_free = !learned.is_given};
+    return {
+        .value = power * portable::log(learned.value), .step = step, .is_free = !learned.is_given};
   }
 
   std::size_t sensors() const { return model_.noise.size(); }
@@ -170,8 +171,8 @@ class Fit {
     variance /= 2.0 * static_cast<double>(sensors());
     double log_p = 0.0;
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      const double index = portable::exp(parameters_[index_of_class(c)].value) * interval_ * interval_ *
-                           interval_ / variance;
+      const double index = portable::exp(parameters_[index_of_class(c)].value) * interval_ *
+                           interval_ * interval_ / variance;
       if (!(index > kSteadiest && index < kNimblest)) return kOutOfBounds;
       const double off = portable::log(index / kUsual) / kSpreadOfUsual;
       log_p -= 0.5 * off * off;

@@ -25,16 +25,16 @@ struct LearnedMotion {
   struct Noise {
     Learned x, y;  // 1-sigma error of a detection [m]
   };
-  std::vector<Noise> noise;                        // of each sensor
+  std::vector<Noise> noise;  // of each sensor
   /// Of white noise in the acceleration, by class; "default" for those without their own [m²/s³].
   std::map<std::string, Learned> process_density;
-  double initial_speed = 1.0;                      // 1 sigma per axis at first sight [m/s]
+  double initial_speed = 1.0;  // 1 sigma per axis at first sight [m/s]
 };
 
 struct MotionFit {
   LearnedMotion model;
-  int fixes = 0;       // that it is based on
-  double nis = 2.0;    // mean normalised innovation squared: 2 where the model is true
+  int fixes = 0;     // that it is based on
+  double nis = 2.0;  // mean normalised innovation squared: 2 where the model is true
 };
 
 /// The noise of the sensors and the process noise of the classes that make what the tracks were

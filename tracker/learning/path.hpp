@@ -11,7 +11,7 @@ namespace ghtrack {
 
 /// A detection that a target was given.
 struct Fix {
-  double time = 0.0;                                   // [s]
+  double time = 0.0;  // [s]
   int sensor = 0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // [m]
   Eigen::Vector2d variance = Eigen::Vector2d::Zero();  // as the data say [m²]; 0: they don't

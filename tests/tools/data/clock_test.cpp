@@ -28,17 +28,18 @@ TEST(DateTime, MeansTheSameInEveryDialect) {
   EXPECT_EQ(parse_date_time("2024-06-11T07:30:15.25Z"), kSeconds + 0.25);
   EXPECT_EQ(parse_date_time("1970-01-01"), 0.0);
   EXPECT_EQ(parse_date_time("1969-12-31T23:59:59Z"), -1.0);
-  EXPECT_EQ(parse_date_time("2000-03-01T00:00Z").value() -
-                parse_date_time("2000-02-28T00:00Z").value(),
-            2 * 86400.0);
+  EXPECT_EQ(
+      parse_date_time("2000-03-01T00:00Z").value() - parse_date_time("2000-02-28T00:00Z").value(),
+      2 * 86400.0);
 }
 
 // Property: what is no date is none.
 TEST(DateTime, RefusesWhatIsNone) {
-  for (const char* text : {"", "2024", "2024-13-01T00:00", "2024-06-11T25:00:00", "2024-06-11T07:61",
-                           "2024-06-11T07:30:15X", "2024-06-11T07:30:15+", "31.06.2024 07:30",
-                           "11.6/2024", "1-6-2024", "Tue Foo 11 07:30:15 2024", "13:00 PM",
-                           "2024-06/11", "2024-06-11T07:30:15+02:00 ", "2024-06-11T07:30:"}) {
+  for (const char* text :
+       {"", "2024", "2024-13-01T00:00", "2024-06-11T25:00:00", "2024-06-11T07:61",
+        "2024-06-11T07:30:15X", "2024-06-11T07:30:15+", "31.06.2024 07:30", "11.6/2024", "1-6-2024",
+        "Tue Foo 11 07:30:15 2024", "13:00 PM", "2024-06/11", "2024-06-11T07:30:15+02:00 ",
+        "2024-06-11T07:30:"}) {
     EXPECT_FALSE(parse_date_time(text).has_value()) << text;
   }
 }
@@ -66,8 +67,8 @@ TEST(Clock, TurnsEveryUnitIntoSeconds) {
   EXPECT_EQ(read("days", "0.5"), 43200.0);
 }
 
-// Derived: 2024-06-11 is day 45454 of Excel and day 739414 of MATLAB; without dashes it is a date only
-// where the column says so, or with its time.
+// Derived: 2024-06-11 is day 45454 of Excel and day 739414 of MATLAB; without dashes it is a date
+// only where the column says so, or with its time.
 TEST(Clock, CountsDaysAsProgramsDo) {
   constexpr double kMidnight = 19885.0 * 86400.0;
   const auto of_dates = [](const char* text) {

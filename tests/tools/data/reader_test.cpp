@@ -86,7 +86,7 @@ TEST(ScanReader, ReadsMessagesOfBaseStation) {
   ASSERT_TRUE(reader.summary().origin);
   Scan first, second;
   ASSERT_TRUE(reader.next(first) && reader.next(second));
-  EXPECT_NEAR(first.time, 1773230401.5, 1e-3);  // date -u -d '2026-03-11 12:00:01.5' +%s.%N
+  EXPECT_NEAR(first.time, 1773230401.5, 1e-3);   // date -u -d '2026-03-11 12:00:01.5' +%s.%N
   constexpr double kMetresPerDegree = 111253.0;  // of latitude at 51°
   EXPECT_NEAR((second.detections[0].position - first.detections[0].position).norm(),
               0.001 * kMetresPerDegree, 0.1);
@@ -195,8 +195,8 @@ TEST(ScanReader, TakesTheOrderOfDatesFromTheFirst) {
             "1.0368e+06/0: 1,2; 1.1232e+06/0: 3,4; ");
 }
 
-// Property: degrees, minutes and seconds, whole numbers of 1e-7 degrees, and the semicircles of FIT,
-// 2^31 to 180°, are the same places; that a ship does not know where it is, is no place.
+// Property: degrees, minutes and seconds, whole numbers of 1e-7 degrees, and the semicircles of
+// FIT, 2^31 to 180°, are the same places; that a ship does not know where it is, is no place.
 TEST(ScanReader, ReadsDegreesInEveryForm) {
   const auto last = [](const std::string& first, const std::string& second,
                        const std::string& columns = "lat,lon") {
@@ -355,17 +355,16 @@ TEST(PointReader, TakesAddressesForIdentities) {
 // capitals, are read; a point without a time is named by its line.
 TEST(PointReader, ReadsEveryWayOfWritingTracks) {
   const ScratchFolder folder;
-  PointReader json(
-      folder
-          .write("in.geojson",
-                 R"({"type":"FeatureCollection","features":[
+  PointReader json(folder
+                       .write("in.geojson",
+                              R"({"type":"FeatureCollection","features":[
                     {"type":"Feature","properties":{"name":"Smith, \"J\"","times":[0,1]},
                      "geometry":{"type":"LineString","coordinates":[[8,51],[8.1,51]]}},
                     {"type":"Feature","properties":null,"geometry":null},
                     {"type":"Feature","properties":{"times":[[0,1],[2]]},"geometry":
                      {"type":"MultiLineString","coordinates":[[[9,51],[9.1,51]],[[9.2,51]]]}}]})")
-          .string(),
-      PointKind::kTruth);
+                       .string(),
+                   PointKind::kTruth);
   EXPECT_EQ(json.next().size(), 2U);
   EXPECT_EQ(json.next().size(), 2U);
   EXPECT_EQ(json.next().size(), 1U);

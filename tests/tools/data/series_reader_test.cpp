@@ -137,7 +137,9 @@ std::string written(const Writing& w, bool two_axes) {
         : w.time_format == "epoch"     ? number((1718091015 + t) * w.time_scale, w.decimal_comma)
                                        : number(t * w.time_scale, w.decimal_comma);
     const std::string place = z ? number(*z * w.place_scale, w.decimal_comma)
-                                : std::string(w.separator == " " ? "NaN" : w.comments ? "NA" : "");
+                                : std::string(w.separator == " " ? "NaN"
+                                              : w.comments       ? "NA"
+                                                                 : "");
     text += cell(stamp) + w.separator + cell(place);
     if (two_axes) text += w.separator + cell(place);
     text += end;
@@ -225,8 +227,10 @@ TEST(SeriesReader, PutsRowsInOrder) {
 // Derived: a false time is left out with its line; those around it stay.
 TEST(TimeOrder, TellsFalseTimesFromRowsOutOfOrder) {
   using enum Placing;
-  EXPECT_THAT(placings({0, 1, 5000, 3, 4, 5}), ElementsAre(kKeep, kKeep, kBelied, kKeep, kKeep, kKeep));
-  EXPECT_THAT(placings({0, 1, 2, 3, -700, 5}), ElementsAre(kKeep, kKeep, kKeep, kKeep, kLate, kKeep));
+  EXPECT_THAT(placings({0, 1, 5000, 3, 4, 5}),
+              ElementsAre(kKeep, kKeep, kBelied, kKeep, kKeep, kKeep));
+  EXPECT_THAT(placings({0, 1, 2, 3, -700, 5}),
+              ElementsAre(kKeep, kKeep, kKeep, kKeep, kLate, kKeep));
   EXPECT_THAT(placings({0, 1, 2, 3, 1, 5}), ElementsAre(kKeep, kKeep, kKeep, kKeep, kLate, kKeep));
   EXPECT_THAT(placings({0, 1, 3, 2, 4, 5}), ::testing::Each(kKeep));
   EXPECT_THAT(placings({5, 4, 3, 2, 1, 0}), ::testing::Each(kKeep));
@@ -289,8 +293,10 @@ TEST(SeriesReader, CountsRowsLeftOut) {
 // Derived: degrees become metres; lengths too.
 TEST(SeriesReader, SaysWhatItUnderstood) {
   const ScratchFolder folder;
-  SeriesReader walk(folder.write("in.csv", "time,lat,lon\n2024-06-11T07:30:00Z,50,8\n"
-                                           "2024-06-11T07:30:01Z,,\n2024-06-11T07:30:02Z,50.001,8\n")
+  SeriesReader walk(folder
+                        .write("in.csv",
+                               "time,lat,lon\n2024-06-11T07:30:00Z,50,8\n"
+                               "2024-06-11T07:30:01Z,,\n2024-06-11T07:30:02Z,50.001,8\n")
                         .string());
   EXPECT_THAT(walk.understood(),
               HasSubstr("3 rows (commas), t (ISO 8601, as s since 1970) from 'time', zx and zy in "

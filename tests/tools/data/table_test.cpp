@@ -14,7 +14,8 @@ using ::testing::HasSubstr;
 
 // Property: a heading is a name and a unit, however they are joined.
 TEST(Heading, KnowsItsUnit) {
-  for (const char* text : {"y(mm)", "y [mm]", "Y (mm)", "\"y\" (mm)", "y / mm", "y in mm", "y_mm"}) {
+  for (const char* text :
+       {"y(mm)", "y [mm]", "Y (mm)", "\"y\" (mm)", "y / mm", "y in mm", "y_mm"}) {
     SCOPED_TRACE(text);
     const Heading heading = parse_heading(text);
     EXPECT_EQ(heading.base, "y");
@@ -35,8 +36,8 @@ std::string cells_of(const std::string& content) {
   while (table.next()) {
     for (std::size_t i = 0; i < table.headings().size(); ++i) {
       const auto number = table.number(i);
-      text += (i > 0 ? "|" : "") + (number ? std::to_string(*number).substr(0, 4)
-                                           : std::string(table.cell(i)));
+      text += (i > 0 ? "|" : "") +
+              (number ? std::to_string(*number).substr(0, 4) : std::string(table.cell(i)));
     }
     text += "\n";
   }
@@ -48,7 +49,8 @@ TEST(Table, ReadsEveryDialectAlike) {
   for (const char* text :
        {"t,x,y\n0.25,1.5,2.5\n1.25,,4.5\n", "t;x;y\n0.25;1.5;2.5\n1.25;;4.5\n",
         "t;x;y\n0,25;1,5;2,5\n1,25;;4,5\n", "t\tx\ty\n0.25\t1.5\t2.5\n1.25\t\t4.5\n",
-        "t\tx\ty\r\n0,25\t1,5\t2,5\r\n1,25\t\t4,5", "\xef\xbb\xbft , x,y\n0.25, 1.5 ,2.5\n1.25,,4.5",
+        "t\tx\ty\r\n0,25\t1,5\t2,5\r\n1,25\t\t4,5",
+        "\xef\xbb\xbft , x,y\n0.25, 1.5 ,2.5\n1.25,,4.5",
         "\"t\",\"x\",\"y\"\n\"0.25\",\"1.5\",2.5\n1.25,\"\",4.5\n",
         "# made by a logger\n% and another\n// one more\nt,x,y\n0.25,1.5,2.5\n\n# in between\n"
         "1.25,,4.5\n\n",
@@ -150,7 +152,8 @@ TEST(TextInput, RefusesWhatIsNoText) {
   EXPECT_EQ(message("/dev/zero"), "/dev/zero: error: this is no regular file");
   EXPECT_THAT(message(folder.path()), HasSubstr("this is no regular file"));
   EXPECT_THAT(message(folder.path() / "none"), HasSubstr("No such file or directory"));
-  EXPECT_THAT(message(folder.write("a", "t,x\n1,2\n3,\xe9\n")), HasSubstr("a:3: error: this is no text"));
+  EXPECT_THAT(message(folder.write("a", "t,x\n1,2\n3,\xe9\n")),
+              HasSubstr("a:3: error: this is no text"));
   EXPECT_THAT(message(folder.write("b", std::string("t,x\n1,\0\n", 8))), HasSubstr("b:2: error"));
   EXPECT_THAT(message(folder.write("c", "t,x\n" + std::string(70000, '1') + "\n")),
               HasSubstr("c:2: error: this line is longer than 64 KiB"));

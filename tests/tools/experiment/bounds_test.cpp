@@ -71,28 +71,29 @@ compare:
   const std::string differ = motion.compare;
   scene.compare.fresh_wind = differ.find("fresh_wind") != std::string::npos;
   if (differ.find("launch") != std::string::npos) {
-    scene.compare.launch = LaunchScatter{.position = differ.find("position") == std::string::npos ? 0.0 : 1.0,
-                                         .velocity = 2.0};
+    scene.compare.launch = LaunchScatter{
+        .position = differ.find("position") == std::string::npos ? 0.0 : 1.0, .velocity = 2.0};
   }
   return scene;
 }
 
-// Property: fixed gains are predicted no less than the best ones in hindsight, on the same runs, and
-// are measured no less beyond their interval; no filter at all is below the bound or the smoother
-// beyond its interval. (Detections that are missed differ between the runs that hindsight goes
-// through and all of them: hence half a per cent.)
+// Property: fixed gains are predicted no less than the best ones in hindsight, on the same runs,
+// and are measured no less beyond their interval; no filter at all is below the bound or the
+// smoother beyond its interval. (Detections that are missed differ between the runs that hindsight
+// goes through and all of them: hence half a per cent.)
 TEST(Bounds, AreBeatenByNoFilter) {
-  for (const char* sensors :
-       {"[{name: cam, rate: 10, noise: 1}]",
-        "[{name: cam, rate: 10, noise: 0.3, detection_probability: 0.8}, {name: far, rate: 3, phase: "
-        "0.037, noise: 2}]"}) {
+  for (const char* sensors : {"[{name: cam, rate: 10, noise: 1}]",
+                              "[{name: cam, rate: 10, noise: 0.3, detection_probability: 0.8}, "
+                              "{name: far, rate: 3, phase: "
+                              "0.037, noise: 2}]"}) {
     for (const Motion& motion : kMotions) {
       const Campaign campaign{{{scene_of(motion, sensors, 25), "bounds.yaml", ""}}};
       const Comparison comparison =
           compare(campaign, groups_by_truth(campaign), testing::all_results(campaign, 2), 2);
       int rows = 0;
       for (const ComparisonRow& row : comparison.rows) {
-        if (row.metric != Metric::kRmsePosition || row.regime.empty() || !row.object.empty()) continue;
+        if (row.metric != Metric::kRmsePosition || row.regime.empty() || !row.object.empty())
+          continue;
         const std::string& filter = comparison.filters[row.filter];
         SCOPED_TRACE(motion.name + std::string(", ") + filter + ", " + sensors);
         ASSERT_TRUE(row.ci95 && row.hindsight.best_fixed_gains && row.hindsight.smoother &&
@@ -111,8 +112,8 @@ TEST(Bounds, AreBeatenByNoFilter) {
   }
 }
 
-// Property: of thousands of gains from the whole stable region none is expected to err less than the
-// best fixed gains, by more than a thousandth.
+// Property: of thousands of gains from the whole stable region none is expected to err less than
+// the best fixed gains, by more than a thousandth.
 TEST(Bounds, OfFixedGainsAreTheLeastOfTheStableRegion) {
   for (const Motion& motion : kMotions) {
     SCOPED_TRACE(motion.name);
@@ -130,13 +131,14 @@ TEST(Bounds, OfFixedGainsAreTheLeastOfTheStableRegion) {
     for (int i = 0; i < 3000; ++i) {
       const int order = i % 3;
       const double p[] = {stream.uniform(), stream.uniform(), stream.uniform()};
-      const Gains gains = order == 0 ? Gains::of_g(std::pow(10.0, -3.0 + 3.0 * p[0]))
-                                     : stable_gains(order).at(std::span(p).first(order == 1 ? 2U : 3U));
+      const Gains gains = order == 0
+                              ? Gains::of_g(std::pow(10.0, -3.0 + 3.0 * p[0]))
+                              : stable_gains(order).at(std::span(p).first(order == 1 ? 2U : 3U));
       ASSERT_TRUE(is_stable(gains));
       Mean squares;
       for (const LabelledObject* object : objects) {
-        squares += expected_errors(plain_filter(gains, trial.scoring().sigma, trial.scoring().period),
-                                   *object)
+        squares += expected_errors(
+                       plain_filter(gains, trial.scoring().sigma, trial.scoring().period), *object)
                        .position;
       }
       least = std::min(least, *squares.root());
@@ -145,8 +147,8 @@ TEST(Bounds, OfFixedGainsAreTheLeastOfTheStableRegion) {
   }
 }
 
-/// A body whose acceleration is new and random at every scan, seen with σ = 1 at T = 1, from a start
-/// that is known.
+/// A body whose acceleration is new and random at every scan, seen with σ = 1 at T = 1, from a
+/// start that is known.
 LabelledObject wandering(double acceleration, std::uint64_t seed, int scans) {
   LabelledObject object;
   TruthState truth;
@@ -212,7 +214,8 @@ TEST(Bounds, OfRandomMotionIsReachedByTheFilterThatKnowsIt) {
       SCOPED_TRACE(name);
       double sum = 0.0, squares = 0.0;
       for (const LabelledObject& object : objects) {
-        const double mean = *measured_errors(make_filter(config, 1.0, 1.0), object).position.value();
+        const double mean =
+            *measured_errors(make_filter(config, 1.0, 1.0), object).position.value();
         sum += mean;
         squares += mean * mean;
       }

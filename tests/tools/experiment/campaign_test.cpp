@@ -112,8 +112,8 @@ TEST(WorldOfRun, ScattersLaunchesBySigma) {
   EXPECT_NEAR(square, 8.0, 1.6);
 }
 
-// Property: run 0 is the scene itself; no other run of neighbouring seeds, whether of a campaign, for
-// tuning or for judging, has a seed that another one has. Each is exact as a double.
+// Property: run 0 is the scene itself; no other run of neighbouring seeds, whether of a campaign,
+// for tuning or for judging, has a seed that another one has. Each is exact as a double.
 TEST(SeedOfRun, IsOfThatRunAlone) {
   EXPECT_EQ(scene_of_run(steady_scene("{runs: 9}"), 0).seed, 5U);
   std::set<std::uint64_t> seeds;

@@ -76,15 +76,17 @@ TEST(Comparison, PredictsVelocityAndInnovation) {
 TEST(Comparison, CallsEqualFiltersTied) {
   const Comparison comparison = compared(
       "{runs: 20, filters: {large: {gh: {g: 0.8, h: 0.5}}, twin: {gh: {g: 0.8, h: 0.5}}}}");
-  EXPECT_EQ(row_of(comparison, "large", "ball", Metric::kRmsePosition).significance, Significance::kTied);
-  EXPECT_EQ(row_of(comparison, "twin", "ball", Metric::kRmsePosition).significance, Significance::kTied);
+  EXPECT_EQ(row_of(comparison, "large", "ball", Metric::kRmsePosition).significance,
+            Significance::kTied);
+  EXPECT_EQ(row_of(comparison, "twin", "ball", Metric::kRmsePosition).significance,
+            Significance::kTied);
 }
 
 // Property: a difference that a few runs cannot tell is not called a tie, and what would tell it is
 // said.
 TEST(Comparison, CallsUndecidedWhatItIs) {
-  const Comparison comparison = compared(
-      "{runs: 6, filters: {a: {gh: {g: 0.50, h: 0.20}}, b: {gh: {g: 0.52, h: 0.19}}}}");
+  const Comparison comparison =
+      compared("{runs: 6, filters: {a: {gh: {g: 0.50, h: 0.20}}, b: {gh: {g: 0.52, h: 0.19}}}}");
   const ComparisonRow& a = row_of(comparison, "a", "ball", Metric::kPeakError);
   const ComparisonRow& b = row_of(comparison, "b", "ball", Metric::kPeakError);
   EXPECT_EQ(a.significance, Significance::kUndecided);
@@ -100,7 +102,8 @@ TEST(Comparison, NamesNoWinnerWithoutEvidence) {
   EXPECT_EQ(row.significance, Significance::kTooFew);
   EXPECT_FALSE(row.ci95);
   const Comparison alone = compared("{runs: 5}");
-  EXPECT_EQ(row_of(alone, "scene", "ball", Metric::kRmsePosition).significance, Significance::kNone);
+  EXPECT_EQ(row_of(alone, "scene", "ball", Metric::kRmsePosition).significance,
+            Significance::kNone);
 }
 
 // Property: the same bytes for any number of threads.
@@ -145,7 +148,8 @@ TEST(Comparison, MapsTheErrorOverGains) {
   const GainSurface& surface = comparison.cells[0].surfaces.at(0);
   ASSERT_EQ(surface.rmse.size(), surface.g.size() * surface.h.size());
   const double least = *std::min_element(surface.rmse.begin(), surface.rmse.end());
-  const double bound = *row_of(comparison, "tiny", "ball", Metric::kRmsePosition).hindsight.best_fixed_gains;
+  const double bound =
+      *row_of(comparison, "tiny", "ball", Metric::kRmsePosition).hindsight.best_fixed_gains;
   EXPECT_NEAR(least, bound, 0.1 * bound);
   EXPECT_LT(surface.best.g, 0.1);
   EXPECT_EQ(surface.marks.size(), 3U);
@@ -161,7 +165,8 @@ TEST(RunTable, HasARowForEverySubject) {
   const std::string first = rows.substr(0, rows.find('\n') + 1);
   EXPECT_EQ(std::count(first.begin(), first.end(), ','),
             std::count(header.begin(), header.end(), ','));
-  EXPECT_THAT(first, ::testing::StartsWith("steady,,2," + std::to_string(seed_of_run(5, 2)) + ",large,ball,puck,"));
+  EXPECT_THAT(first, ::testing::StartsWith("steady,,2," + std::to_string(seed_of_run(5, 2)) +
+                                           ",large,ball,puck,"));
 }
 
 }  // namespace

@@ -121,7 +121,10 @@ TEST(Journal, RefusesRecordsThatNoRunCanHaveGiven) {
   std::vector<double> infinite = kScores;
   infinite[3] = infinity;
   const std::vector<std::pair<std::vector<double>, int>> wrong = {
-      {{kScores.begin(), kScores.end() - 1}, 0}, {{1.0}, 0}, {infinite, 0}, {nothing, 0},
+      {{kScores.begin(), kScores.end() - 1}, 0},
+      {{1.0}, 0},
+      {infinite, 0},
+      {nothing, 0},
       {kScores, 3}};
   for (const auto& [scores, run] : wrong) {
     const ScratchFolder scratch;
@@ -146,7 +149,8 @@ TEST(Journal, FollowsNoLinkAndWaitsForNoPipe) {
   EXPECT_FALSE(fs::exists(scratch.path() / "elsewhere"));
   ASSERT_EQ(::mkfifo((scratch.path() / "shard-1-of-2.runs").c_str(), 0600), 0);
   Results results(campaign);
-  EXPECT_THROW(read_journals({scratch.path() / "shard-1-of-2.runs"}, campaign, results), InputError);
+  EXPECT_THROW(read_journals({scratch.path() / "shard-1-of-2.runs"}, campaign, results),
+               InputError);
 }
 
 // Property: a flipped bit spoils its run and what follows, nothing before.

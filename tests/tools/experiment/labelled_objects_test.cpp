@@ -87,7 +87,8 @@ TEST(Tuning, ComesWithinFivePercentOfTheBound) {
 // Property: an object is followed from its first detection on, and told apart from clutter.
 TEST(LabelledObjects, BeginWithTheFirstDetection) {
   const Trial trial(steady_scene("{runs: 2}"));
-  const std::vector<LabelledObject> objects = labelled_objects(trial, 1, trial.truth_of(1), some_objects(trial, 1000));
+  const std::vector<LabelledObject> objects =
+      labelled_objects(trial, 1, trial.truth_of(1), some_objects(trial, 1000));
   ASSERT_EQ(objects.size(), 1U);
   EXPECT_EQ(objects[0].scans.size(), 121U);
   EXPECT_TRUE(objects[0].scans.front().detection);

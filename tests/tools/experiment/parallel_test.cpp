@@ -19,9 +19,8 @@ TEST(InParallel, DoesEveryTaskOnce) {
   for (const int jobs : {1, 2, 3, 16}) {
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{1000}}) {
       std::vector<std::atomic<int>> done(count);
-      in_parallel(count, jobs, [&](std::size_t i) {
-        in_parallel(3, jobs, [&](std::size_t) { ++done[i]; });
-      });
+      in_parallel(count, jobs,
+                  [&](std::size_t i) { in_parallel(3, jobs, [&](std::size_t) { ++done[i]; }); });
       for (const auto& times : done) EXPECT_EQ(times, 3);
     }
   }
@@ -31,17 +30,18 @@ TEST(InParallel, DoesEveryTaskOnce) {
 std::string squares(int count, int jobs, int fails_from, int delivery_fails = 9999) {
   int next = 0;
   std::string text;
-  OrderedWork<int, int> work(
-      [&] { return next < count ? std::optional(next++) : std::nullopt; },
-      [&](const int& item) {
-        if (item % 7 == 3) std::this_thread::yield();
-        if (item >= fails_from) throw std::runtime_error("item " + std::to_string(item));
-        return item * item;
-      },
-      [&](int square) {
-        if (square == delivery_fails * delivery_fails) throw std::runtime_error("delivery");
-        text += std::to_string(square) + " ";
-      });
+  OrderedWork<int, int> work([&] { return next < count ? std::optional(next++) : std::nullopt; },
+                             [&](const int& item) {
+                               if (item % 7 == 3) std::this_thread::yield();
+                               if (item >= fails_from)
+                                 throw std::runtime_error("item " + std::to_string(item));
+                               return item * item;
+                             },
+                             [&](int square) {
+                               if (square == delivery_fails * delivery_fails)
+                                 throw std::runtime_error("delivery");
+                               text += std::to_string(square) + " ";
+                             });
   try {
     work.run(jobs);
   } catch (const std::runtime_error& error) {
@@ -75,7 +75,8 @@ TEST(OrderedWork, KeepsFewResults) {
   OrderedWork<int, int>([&] { return next < 500 ? std::optional(next++) : std::nullopt; },
                         [&](const int& item) {
                           ++waiting;
-                          if (item % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+                          if (item % 50 == 0)
+                            std::this_thread::sleep_for(std::chrono::milliseconds(2));
                           return item;
                         },
                         [&](int) { most = std::max(most, waiting--); })

@@ -55,7 +55,8 @@ std::optional<double> bound_of(const LabelledObject& object, const SensorConfig&
   return posterior_bound({&object}, std::vector{sensor}, motions);
 }
 
-// Derived: for Kalata's model the bound tends to the error of the steady Kalman filter, σ √g per axis.
+// Derived: for Kalata's model the bound tends to the error of the steady Kalman filter, σ √g per
+// axis.
 TEST(PosteriorBound, TendsToTheSteadyKalmanFilter) {
   for (const double index : {0.05, 0.5, 5.0}) {
     const double sigma = 2.0;
@@ -65,8 +66,9 @@ TEST(PosteriorBound, TendsToTheSteadyKalmanFilter) {
   }
 }
 
-// Derived: a start x = v t from a known place with v ~ N(0, s²) has, after detections at the times t_i,
-// the variance 1 / (1/s² + Σ t_i² / σ²) of v on each axis; the third scan is the first that counts.
+// Derived: a start x = v t from a known place with v ~ N(0, s²) has, after detections at the times
+// t_i, the variance 1 / (1/s² + Σ t_i² / σ²) of v on each axis; the third scan is the first that
+// counts.
 TEST(PosteriorBound, OfARandomStartIsThatOfItsVelocity) {
   MotionLaw law = drifting();
   law.start(2, 2) = law.start(3, 3) = 4.0;
@@ -76,8 +78,8 @@ TEST(PosteriorBound, OfARandomStartIsThatOfItsVelocity) {
   EXPECT_NEAR(*bound_of(object, sensor_with(3.0), law), std::sqrt(at_two + at_three), 1e-12);
 }
 
-// Derived: of a radar, r² σ_θ² across the line of sight and σ_r² along it, here with a start that is
-// as good as unknown, and no motion.
+// Derived: of a radar, r² σ_θ² across the line of sight and σ_r² along it, here with a start that
+// is as good as unknown, and no motion.
 TEST(PosteriorBound, OfARadarIsThatOfItsRangeAndBearing) {
   LabelledObject object = seen(3);
   for (ObjectScan& scan : object.scans) scan.truth.position = {300.0, 400.0};
@@ -92,8 +94,8 @@ TEST(PosteriorBound, OfARadarIsThatOfItsRangeAndBearing) {
   EXPECT_NEAR(*bound_of(object, sensor, law), std::sqrt((4.0 + across * across) / 3.0), 1e-3);
 }
 
-// Derived: white noise in the acceleration, Q = q [T³/3 T²/2; T²/2 T], and an acceleration that fades
-// with the time τ, whose variance tends to q τ / 2 (Singer 1970).
+// Derived: white noise in the acceleration, Q = q [T³/3 T²/2; T²/2 T], and an acceleration that
+// fades with the time τ, whose variance tends to q τ / 2 (Singer 1970).
 TEST(MotionLaw, SolvesStochasticEquations) {
   Matrix a = Matrix::Zero(2, 2), w = Matrix::Zero(2, 2);
   a(0, 1) = 1.0;
@@ -113,7 +115,8 @@ TEST(MotionLaw, SolvesStochasticEquations) {
 bool has_bound(const std::string& target, const std::string& compare, Runs runs,
                const std::string& world = "{air: {density: 0}}") {
   const std::string text = "name: b\nduration: 5\nworld: " + world + "\ntargets: [" + target +
-                           "]\nsensors: [{name: cam, rate: 10, noise: 1}]\ncompare: " + compare + "\n";
+                           "]\nsensors: [{name: cam, rate: 10, noise: 1}]\ncompare: " + compare +
+                           "\n";
   const auto scene = std::get<WorldScene>(read_scene_text(text, "b.yaml"));
   return random_motions(scene, runs).front().has_value();
 }
@@ -128,14 +131,18 @@ TEST(RandomMotions, AreThoseWhoseLawIsKnown) {
   EXPECT_FALSE(has_bound(ball, "{runs: 5}", Runs::kMany)) << "nothing differs";
   EXPECT_FALSE(has_bound(ball + other, scattered, Runs::kMany)) << "they may meet";
   EXPECT_FALSE(has_bound(ball, scattered, Runs::kMany, "{}")) << "drag is not linear";
-  EXPECT_FALSE(has_bound(ball, scattered, Runs::kMany, "{air: {density: 0}, ground: {height: -9}}"));
-  const std::string route =
-      "{name: a, route: {position: [0, 0], speed: 9, process_noise: {";
-  EXPECT_TRUE(has_bound(route + "model: singer, sigma: 1}}}", "{runs: 5, fresh_wind: true}", Runs::kMany));
-  EXPECT_TRUE(has_bound(route + "model: constant-velocity, spectral_density: 1}}}", "{runs: 5}", Runs::kOne));
-  EXPECT_FALSE(has_bound(route + "model: constant-velocity, spectral_density: 1}}}", "{runs: 5}", Runs::kMany))
+  EXPECT_FALSE(
+      has_bound(ball, scattered, Runs::kMany, "{air: {density: 0}, ground: {height: -9}}"));
+  const std::string route = "{name: a, route: {position: [0, 0], speed: 9, process_noise: {";
+  EXPECT_TRUE(
+      has_bound(route + "model: singer, sigma: 1}}}", "{runs: 5, fresh_wind: true}", Runs::kMany));
+  EXPECT_TRUE(has_bound(route + "model: constant-velocity, spectral_density: 1}}}", "{runs: 5}",
+                        Runs::kOne));
+  EXPECT_FALSE(has_bound(route + "model: constant-velocity, spectral_density: 1}}}", "{runs: 5}",
+                         Runs::kMany))
       << "all runs have the same draw";
-  EXPECT_FALSE(has_bound(route + "model: coordinated-turn, turn_rate_deg: 1}}}", "{runs: 5}", Runs::kOne));
+  EXPECT_FALSE(
+      has_bound(route + "model: coordinated-turn, turn_rate_deg: 1}}}", "{runs: 5}", Runs::kOne));
   EXPECT_FALSE(has_bound("{name: a, train: {stock: ideal, speed: 20}}", "{runs: 5}", Runs::kMany));
   EXPECT_FALSE(has_bound("{name: a, balloon: {position: [0, 9]}}", "{runs: 5, fresh_wind: true}",
                          Runs::kMany, "{wind: {turbulence: {model: ornstein-uhlenbeck}}}"));

@@ -28,7 +28,8 @@ targets:
 sensors: )" + sensors + R"(
 tracker: {)" + tracker + R"(}
 compare:
-  runs: )" + std::to_string(runs) + R"(
+  runs: )" + std::to_string(runs) +
+                           R"(
   filters:
     order 0: {order0: {g: 0.9}}
     g-h: {gh: {g: 0.3, h: 0.05}}
@@ -61,7 +62,8 @@ void expect_predicted(const Comparison& comparison, const std::string& but = "")
                           row.metric == Metric::kRmseVelocity || row.metric == Metric::kLag;
     if (!is_asked || !row.object.empty() || row.regime.empty()) continue;
     if (comparison.filters[row.filter] == but) continue;
-    const std::string what = comparison.filters[row.filter] + ", " + std::string(info(row.metric).name);
+    const std::string what =
+        comparison.filters[row.filter] + ", " + std::string(info(row.metric).name);
     ASSERT_TRUE(row.predicted) << what;
     // Tails too heavy for an interval make the mean uncertain, too.
     const double half = row.ci95 ? 0.75 * (row.ci95->high - row.ci95->low) : 0.03 * row.mean;
@@ -71,8 +73,8 @@ void expect_predicted(const Comparison& comparison, const std::string& but = "")
   EXPECT_EQ(rows, (but.empty() ? 15 : 14) * 4);
 }
 
-// Property: of every kind of filter, in matched and mismatched motion, the error, lag and innovation
-// are predicted.
+// Property: of every kind of filter, in matched and mismatched motion, the error, lag and
+// innovation are predicted.
 TEST(Prediction, IsWithinTheIntervalForEveryKindOfFilter) {
   expect_predicted(compared_sensors("[{name: cam, rate: 10, noise: 0.5}]"));
 }
@@ -100,8 +102,8 @@ TEST(Prediction, HoldsWhereOneSensorOfTwoHasHeavyTails) {
                    "huber kalman");
 }
 
-// Property: and of what stands still before a camera whose cells are large beside its noise: near the
-// edge of a cell, since it takes many runs to see how much rare jumps into the next one add.
+// Property: and of what stands still before a camera whose cells are large beside its noise: near
+// the edge of a cell, since it takes many runs to see how much rare jumps into the next one add.
 TEST(Prediction, HoldsWithLargePixels) {
   expect_predicted(compared_sensors(
       "[{name: cam, rate: 10, kind: camera, noise_px: 0.3, quantum_px: 4, flat: {}}]",
@@ -116,17 +118,18 @@ TEST(Prediction, HoldsWhereScansAreReplayed) {
                        kSpeedsUp, "association: known, late_scans: replay"));
 }
 
-// Property: and where a tracker finds out what is whose: its tracks begin before they are confirmed.
-// A filter of order 0 does not expect the train to move, so that its tracks lose some detections. The
-// errors of velocity are those of the start, most of all, which is why there are more runs.
+// Property: and where a tracker finds out what is whose: its tracks begin before they are
+// confirmed. A filter of order 0 does not expect the train to move, so that its tracks lose some
+// detections. The errors of velocity are those of the start, most of all, which is why there are
+// more runs.
 TEST(Prediction, HoldsFromTheFirstDetectionOn) {
   expect_predicted(compared_sensors("[{name: cam, rate: 10, noise: 0.5}]", kSpeedsUp,
                                     "association: nearest-global, gate: 8", 160),
                    "order 0");
 }
 
-// Property: and with range and bearing, whose errors have a direction, and of a ball, whose motion no
-// filter here has as its model.
+// Property: and with range and bearing, whose errors have a direction, and of a ball, whose motion
+// no filter here has as its model.
 TEST(Prediction, HoldsWithRadar) {
   const std::string radar =
       "[{name: radar, rate: 10, site: [0, -200], kind: radar, sigma_range: 1, sigma_bearing_deg: "

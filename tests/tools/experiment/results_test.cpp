@@ -20,8 +20,8 @@ using testing::steady_scene;
 /// Two cells with runs of different lengths.
 Campaign two_cells() {
   const WorldScene one = steady_scene("{runs: 1500}");
-  const WorldScene two = steady_scene(
-      "{runs: 700, filters: {a: {gh: {g: 0.5, h: 0.2}}, b: {gh: {g: 0.1, h: 0.01}}}}");
+  const WorldScene two =
+      steady_scene("{runs: 700, filters: {a: {gh: {g: 0.5, h: 0.2}}, b: {gh: {g: 0.1, h: 0.01}}}}");
   return {{{one, "one.yaml", ""}, {two, "two.yaml", ""}}};
 }
 

@@ -62,7 +62,8 @@ TEST(SharedTruth, SimulatesOnceWhatIsGoneThroughAgain) {
   EXPECT_EQ(reused.source()->at(0.0), reused.source()->at(0.0));
   const RunTruth once = fresh.of_run(0, false);
   EXPECT_NE(once.source()->at(0.0), once.source()->at(0.0));
-  const std::vector<CellGroup> groups = groups_by_truth(mixed_campaign("{runs: 2, fresh_wind: true}"));
+  const std::vector<CellGroup> groups =
+      groups_by_truth(mixed_campaign("{runs: 2, fresh_wind: true}"));
   const RunTruth kept = groups[0].truth->of_run(1, false);
   EXPECT_EQ(kept.source()->at(0.0), groups[0].truth->of_run(1, false).source()->at(0.0));
 }

@@ -13,7 +13,6 @@
 namespace ghtrack {
 namespace {
 
-
 // Derived: mean 3, s² = 2.5, n = 5, t(0.975, 4) = 2.776445 and t(0.9825, 4) = 3.135495: half
 // width t √(s²/n), on the logarithm of what is positive.
 TEST(MeanOf, GivesStudentsInterval) {
@@ -48,9 +47,9 @@ TEST(MeanOf, LeavesOutWhatDidNotOccur) {
   }
 }
 
-// Derived: the mid-P interval of a Poisson mean with no event in five runs ends where half of e^(−5μ)
-// is 0.025, at 0.599;
-// Wilson's of five trials that all succeed begins at n / (n + z²) = 0.566.
+// Derived: the mid-P interval of a Poisson mean with no event in five runs ends where half of
+// e^(−5μ) is 0.025, at 0.599; Wilson's of five trials that all succeed begins at n / (n + z²) =
+// 0.566.
 TEST(MeanOf, KnowsThatNothingSeenIsNotNothing) {
   const std::vector<double> never(5, 0.0);
   const Interval losses = *mean_of(never, Average::kCount).ci95;
@@ -125,8 +124,8 @@ double lognormal(Stream& stream) {
 }
 
 // Property: a 95 % interval misses one time in twenty. 2000 samples tell that to ±0.015 (three
-// standard errors); what is skewed may lack two in a hundred, counts are told more than they ask, and
-// of rare failures no interval can be told that never holds more often than it says.
+// standard errors); what is skewed may lack two in a hundred, counts are told more than they ask,
+// and of rare failures no interval can be told that never holds more often than it says.
 TEST(MeanOf, CoversTheExpectationAsOftenAsItSays) {
   for (const std::size_t runs : {5U, 10U, 20U, 50U}) {
     const auto covers = [&](Average average, double expectation, double (*draw)(Stream&),
@@ -145,7 +144,8 @@ TEST(MeanOf, CoversTheExpectationAsOftenAsItSays) {
     covers(Average::kCount, 3.0, [](Stream& s) { return double{1.0} * s.poisson(3.0); });
     covers(Average::kRate, 0.375,
            [](Stream& s) { return std::max(0.0, (4.0 * s.uniform() - 1.0) / 3.0); });
-    covers(Average::kShare, 0.97, [](Stream& s) { return s.uniform() < 0.97 ? 1.0 : 0.0; }, 1.0);
+    covers(
+        Average::kShare, 0.97, [](Stream& s) { return s.uniform() < 0.97 ? 1.0 : 0.0; }, 1.0);
     covers(Average::kShare, 2.0 / 3.0, [](Stream& s) { return std::sqrt(s.uniform()); });
   }
 }

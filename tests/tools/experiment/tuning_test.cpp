@@ -38,8 +38,8 @@ TEST(Tune, BeatsDesignsAndGuesses) {
   EXPECT_LT(ball.judged.at(ball.recommended).rmse, 1.05 * *ball.hindsight.best_fixed_gains);
 }
 
-// Property: what is recommended is not worse than the scene's own filter on the judging runs, with two
-// sensors of different rates and noise, and for a scene whose own filter is the best there is.
+// Property: what is recommended is not worse than the scene's own filter on the judging runs, with
+// two sensors of different rates and noise, and for a scene whose own filter is the best there is.
 TEST(Tune, RecommendsNothingWorseThanTheScenesOwn) {
   const char* const kText = R"(
 name: two

@@ -70,8 +70,8 @@ TEST(ExpectedError, TendsToTheSteadyState) {
   EXPECT_NEAR(value.innovation->covariance(0, 0), variance * (1.0 + noise.prediction), 1e-9);
 }
 
-// Derived: with errors that have a direction of their own, a g-h filter lets through as much of them
-// as of any others, after any time: K H is a number, so P tends to VRF_x R.
+// Derived: with errors that have a direction of their own, a g-h filter lets through as much of
+// them as of any others, after any time: K H is a number, so P tends to VRF_x R.
 TEST(ExpectedError, StaysWhatItIsForARadar) {
   SensorConfig sensor = camera();
   Radar radar;
@@ -93,8 +93,7 @@ TEST(ExpectedError, StaysWhatItIsForARadar) {
     }
   }
   const ExpectedError::Value value = error->value(truth);
-  const Eigen::Matrix2d r =
-      noiseless_detection(sensor, truth.position).value().covariance;
+  const Eigen::Matrix2d r = noiseless_detection(sensor, truth.position).value().covariance;
   const VarianceReduction noise = variance_reduction(Gains::of_gh(0.5, 0.2), kPeriod);
   EXPECT_NEAR(value.position_variance, noise.x * r.trace(), 1e-3 * r.trace());
   ASSERT_TRUE(value.innovation);
@@ -102,8 +101,9 @@ TEST(ExpectedError, StaysWhatItIsForARadar) {
               1e-3 * r.trace());
 }
 
-// Derived: constant gains let through the noise of each axis by itself, so that an ellipse that turns
-// from scan to scan leaves a covariance of the same trace; what rounding makes of its symmetry fades.
+// Derived: constant gains let through the noise of each axis by itself, so that an ellipse that
+// turns from scan to scan leaves a covariance of the same trace; what rounding makes of its
+// symmetry fades.
 TEST(ExpectedError, StaysExactWhereNoiseIsElongated) {
   const SensorConfig sensor = camera();
   const auto errors = error_parts(sensor).value();
@@ -161,7 +161,8 @@ TEST(ErrorParts, HaveTheVarianceOfTheSensor) {
   EXPECT_FALSE(error_parts(sensor));
 }
 
-// Derived: Rayleigh's mean √(π/2) without a mean, the mean alone without noise, one axis |N| √(2/π).
+// Derived: Rayleigh's mean √(π/2) without a mean, the mean alone without noise, one axis |N|
+// √(2/π).
 TEST(ExpectedLength, IsThatOfRayleigh) {
   const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
   EXPECT_NEAR(expected_length(Vec2::Zero(), unit), std::sqrt(0.5 * std::numbers::pi), 2e-4);
@@ -171,8 +172,8 @@ TEST(ExpectedLength, IsThatOfRayleigh) {
   EXPECT_NEAR(expected_length(Vec2::Zero(), line), 2.0 * std::sqrt(2.0 / std::numbers::pi), 1e-3);
 }
 
-// Derived: far from the edge of a cell all detections say its middle, without noise; on the edge half
-// of them say the middle of either cell.
+// Derived: far from the edge of a cell all detections say its middle, without noise; on the edge
+// half of them say the middle of either cell.
 TEST(ExpectedMeasurement, KnowsWhatRoundingMakesOfAPlace) {
   Camera camera_model;
   camera_model.noise_px = 0.1;

@@ -50,7 +50,9 @@ TEST(KittiBenchmark, HasTheScoresOfTrackEval) {
     truth.rewind();
     tracks.rewind();
     const MotResult result =
-        score_labels(kind, [&] { return truth.next(); }, [&] { return tracks.next(); }, {}, {}).mot;
+        score_labels(
+            kind, [&] { return truth.next(); }, [&] { return tracks.next(); }, {}, {})
+            .mot;
     EXPECT_EQ(result.clear.matches, expected.at("CLR_TP"));
     EXPECT_EQ(result.clear.misses, expected.at("CLR_FN"));
     EXPECT_EQ(result.clear.false_tracks, expected.at("CLR_FP"));
@@ -75,7 +77,8 @@ TEST(KittiBenchmark, LeavesOutWhatIsHidden) {
     truth[0].truncated = truncated;
     truth[0].occluded = occluded;
     const auto clear = score_cars(truth, tracks).mot.clear;
-    EXPECT_EQ(clear.misses + clear.false_tracks + clear.matches, 0) << type << truncated << occluded;
+    EXPECT_EQ(clear.misses + clear.false_tracks + clear.matches, 0)
+        << type << truncated << occluded;
   }
 }
 

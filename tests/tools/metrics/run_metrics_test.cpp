@@ -149,9 +149,9 @@ TEST(RunMetrics, FindsPeakLagSettlingAndLosses) {
   EXPECT_EQ(ball.track_changes, 0);
 }
 
-// Derived: a track that uses its object's detections in scans 0 to 9 and clutter from then on has lost
-// it at scan 10: ten scans count, with an error of 0.2, and nothing of the 80 m after them. Two
-// detections that it lets go by are no loss.
+// Derived: a track that uses its object's detections in scans 0 to 9 and clutter from then on has
+// lost it at scan 10: ten scans count, with an error of 0.2, and nothing of the 80 m after them.
+// Two detections that it lets go by are no loss.
 TEST(RunMetrics, KeepsLossesOutOfErrors) {
   RunMetrics metrics({object(0, "ball")}, {.sigma = 0.5, .period = 0.1});
   for (int i = 0; i < 30; ++i) {
@@ -341,8 +341,8 @@ TEST(TextTable, AlignsColumns) {
 // Property: a column that says more of another never begins a table of its own, at any width.
 TEST(TextTable, KeepsColumnsTogetherThatBelongTogether) {
   const std::vector<TextColumn> columns = {
-      {"name", 8},          {"trusting", 8, true}, {"lost %", 6, true, true}, {"nervous", 8, true},
-      {"lost %", 6, true, true}, {"middle", 8, true}};
+      {"name", 8},          {"trusting", 8, true},     {"lost %", 6, true, true},
+      {"nervous", 8, true}, {"lost %", 6, true, true}, {"middle", 8, true}};
   const std::vector<std::vector<std::string>> rows = {{"train", "9.97", "1", "14.8", "3", "9.2"}};
   for (std::size_t width = 24; width < 70; ++width) {
     std::istringstream text(text_table(columns, rows, {.width = width}));

@@ -36,8 +36,8 @@ TEST(Score, WritesThePromisedKeys) {
   const auto json = to_json(score_points(IdentifiedPoints{}, IdentifiedPoints{}, {}));
   for (const char* key :
        {"gospa", "gospa_localisation", "gospa_missed", "gospa_false", "ospa", "mota", "motp",
-        "id_switches", "fragmentations", "idf1", "idp", "idr", "hota", "deta", "assa", "rmse", "tgospa",
-        "tgospa_switch", "parameters"}) {
+        "id_switches", "fragmentations", "idf1", "idp", "idr", "hota", "deta", "assa", "rmse",
+        "tgospa", "tgospa_switch", "parameters"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_TRUE(json.at("rmse").is_null());
@@ -96,8 +96,9 @@ IdentifiedPoints line(double start, double period, int count) {
   return points;
 }
 
-// Property: a perfect track is perfect whatever the rates, multiples of each other, and the phase at which truth and tracks are
-// written, and no instant of the quicker file counts as missed or false.
+// Property: a perfect track is perfect whatever the rates, multiples of each other, and the phase
+// at which truth and tracks are written, and no instant of the quicker file counts as missed or
+// false.
 TEST(Score, MatchesInstantsOfDifferentRates) {
   for (const double truth_period : {0.01, 0.05, 0.1, 0.2}) {
     for (const double track_period : {0.01, 0.05, 0.1, 0.2}) {
@@ -128,9 +129,9 @@ TEST(Score, ChargesGapsOfTheSlowerFileAtItsRate) {
   EXPECT_NEAR(result.mot.clear.mota, 41.0 / 50.0, 1e-12);
 }
 
-// Derived: perfect tracks at 10 Hz that are known 0.25 s late, of an object at 10 m/s and a truth at
-// 10 Hz: carried on at their velocity they are perfect from the third instant on; without one they
-// are 3 m behind, which is what a velocity that is 1 m/s too low makes 0.3 m.
+// Derived: perfect tracks at 10 Hz that are known 0.25 s late, of an object at 10 m/s and a truth
+// at 10 Hz: carried on at their velocity they are perfect from the third instant on; without one
+// they are 3 m behind, which is what a velocity that is 1 m/s too low makes 0.3 m.
 TEST(Score, ScoresWhatWasKnownAtTheWallClock) {
   const auto scored = [](double velocity) {
     IdentifiedPoints tracks = line(0.0, 0.1, 50);
@@ -190,11 +191,13 @@ TEST(Score, CombinesSequences) {
   const ScoreResult both = combine(std::vector<ScoreResult>{one, one});
   EXPECT_EQ(both.mot.clear.matches, 2 * one.mot.clear.matches);
   EXPECT_EQ(both.steps, 2 * one.steps);
-  for (const auto& [a, b] :
-       {std::pair{both.mot.clear.mota, one.mot.clear.mota}, {both.mot.hota.hota, one.mot.hota.hota},
-        {both.mot.hota.loca, one.mot.hota.loca}, {both.mot.identity.idf1, one.mot.identity.idf1},
-        {both.gospa, one.gospa}, {*both.rmse, *one.rmse},
-        {both.trajectories->switches, 2.0 * one.trajectories->switches}}) {
+  for (const auto& [a, b] : {std::pair{both.mot.clear.mota, one.mot.clear.mota},
+                             {both.mot.hota.hota, one.mot.hota.hota},
+                             {both.mot.hota.loca, one.mot.hota.loca},
+                             {both.mot.identity.idf1, one.mot.identity.idf1},
+                             {both.gospa, one.gospa},
+                             {*both.rmse, *one.rmse},
+                             {both.trajectories->switches, 2.0 * one.trajectories->switches}}) {
     EXPECT_NEAR(a, b, 1e-12);
   }
 }

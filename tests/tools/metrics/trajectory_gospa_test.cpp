@@ -54,8 +54,7 @@ TEST(TrajectoryGospa, ChargesSwitchesAndMisses) {
     for (int k = 0; k < 10; ++k) {
       const std::vector<Eigen::Vector2d> position = {{1.0 * k, 0.0}};
       const std::vector<std::int64_t> track = track_at(k);
-      metric.add(truth, position, track,
-                 std::span(position).first(track.size()));
+      metric.add(truth, position, track, std::span(position).first(track.size()));
     }
     return metric.result(false).value();
   };

@@ -11,7 +11,8 @@ using schema::Node;
 
 // Derived: the flow style of YAML 1.2, chapter 7.4, of which JSON is a part.
 TEST(FlowText, ReadsWhatASceneSays) {
-  const Node root = parse_flow("{ghk: {design: tracking-index, process_noise: 8e-1}, list: [1, -2]}");
+  const Node root =
+      parse_flow("{ghk: {design: tracking-index, process_noise: 8e-1}, list: [1, -2]}");
   const Node::Member* const filter = root.find("ghk");
   ASSERT_NE(filter, nullptr);
   EXPECT_EQ(filter->value.find("design")->value.text, "tracking-index");
@@ -22,7 +23,8 @@ TEST(FlowText, ReadsWhatASceneSays) {
 
 // Derived: RFC 8259.
 TEST(FlowText, ReadsJson) {
-  const Node root = parse_flow(R"({"name": "a \"b\", {c}", "on": true, "none": null, "empty": {}})");
+  const Node root =
+      parse_flow(R"({"name": "a \"b\", {c}", "on": true, "none": null, "empty": {}})");
   EXPECT_EQ(root.find("name")->value.text, "a \"b\", {c}");
   EXPECT_TRUE(root.find("name")->value.quoted);
   EXPECT_EQ(root.find("on")->value.text, "true");
@@ -32,7 +34,8 @@ TEST(FlowText, ReadsJson) {
 
 // Property: what is no document is refused, whatever it is.
 TEST(FlowText, RefusesWhatIsCutOrRepeated) {
-  for (const char* text : {"{", "{a: 1", "[1, 2", "{a: 1} b", "{a: 1, a: 2}", "{a}", "{\"a: 1}", "]"}) {
+  for (const char* text :
+       {"{", "{a: 1", "[1, 2", "{a: 1} b", "{a: 1, a: 2}", "{a}", "{\"a: 1}", "]"}) {
     EXPECT_THROW(parse_flow(text), SceneError) << text;
   }
   EXPECT_THROW(parse_flow(std::string(1000, '[')), SceneError);

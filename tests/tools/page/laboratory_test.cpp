@@ -30,8 +30,8 @@ struct Heard final : RunObserver {
 };
 
 WorldScene throwing() {
-  auto scene = std::get<WorldScene>(
-      read_scene(std::string(GHTRACK_SOURCE_DIR) + "/scenes/throwing.yaml"));
+  auto scene =
+      std::get<WorldScene>(read_scene(std::string(GHTRACK_SOURCE_DIR) + "/scenes/throwing.yaml"));
   scene.duration = 2.0;
   return scene;
 }
@@ -156,13 +156,14 @@ TEST(Laboratory, RefusesWrongSettings) {
   const std::size_t tracks = laboratory.answers().front().tracks.size();
   EXPECT_THROW(laboratory.run("{sensors: [], tracker: {}}"), SceneError);
   EXPECT_THROW(laboratory.run("{sensors: [{name: a, nois: 1}], tracker: {}}"), SceneError);
-  EXPECT_THROW(laboratory.run("{sensors: [{name: a}], tracker: {filters: {default: {gh: {g: 1, h: 3}}}}}"),
-               SceneError);
+  EXPECT_THROW(
+      laboratory.run("{sensors: [{name: a}], tracker: {filters: {default: {gh: {g: 1, h: 3}}}}}"),
+      SceneError);
   EXPECT_EQ(laboratory.answers().front().tracks.size(), tracks);
 }
 
-// Derived: with g = 0.5 and h = 0.2 the variance reduction factor is (2g² + 2h − 3gh) / (g (4 − 2g −
-// h)) = 0.6 / 1.4 (Asquith 1969) and the lag (1 − g) a T² / h.
+// Derived: with g = 0.5 and h = 0.2 the variance reduction factor is (2g² + 2h − 3gh) / (g (4 − 2g
+// − h)) = 0.6 / 1.4 (Asquith 1969) and the lag (1 − g) a T² / h.
 TEST(Laboratory, TellsWhatTheClosedFormsSay) {
   WorldScene scene = throwing();
   Laboratory laboratory = laboratory_of(scene);

@@ -75,7 +75,8 @@ TEST(Figure, IsWrittenInThreeFormatsWithTheSameBytes) {
       write_figure(path, waves(), style);
       // Cairo numbers the clip paths of SVG through the whole life of a process.
       const auto content = [&] {
-        return std::regex_replace(bytes_of(path), std::regex("(clip|glyph|surface)[0-9]+(-[0-9]+)?"), "$1");
+        return std::regex_replace(bytes_of(path),
+                                  std::regex("(clip|glyph|surface)[0-9]+(-[0-9]+)?"), "$1");
       };
       const std::string first = bytes_of(path);
       const std::string numberless = content();
@@ -105,8 +106,12 @@ TEST(TrackFigure, ShowsErrorsOfMatchedTracks) {
                                    "0,7,confirmed,3,0,1,0,2,2\n1,7,confirmed,10,4,,,2,2\n"
                                    "1,9,tentative,90,9,,,2,2\n");
   const auto truth = folder.write("truth.csv", "t,truth_id,x,y\n0,1,0,0\n1,1,10,0\n");
-  const Figure figure = figure_of({.tracks = tracks, .truth = truth, .detections = {}, .panels = {},
-                                   .title = {}, .reading = {}});
+  const Figure figure = figure_of({.tracks = tracks,
+                                   .truth = truth,
+                                   .detections = {},
+                                   .panels = {},
+                                   .title = {},
+                                   .reading = {}});
   EXPECT_THAT(titles_of(figure), ElementsAre("path", "x", "y", "error in x", "error in y",
                                              "residual in x", "residual in y", "NEES"));
   const Panel& nees = figure.panels.back();
@@ -119,10 +124,14 @@ TEST(TrackFigure, ShowsErrorsOfMatchedTracks) {
 // Derived: times of a clock are shown since the first of them.
 TEST(TrackFigure, ShowsTimesOfAClockSinceTheFirst) {
   const ScratchFolder folder;
-  const auto tracks = folder.write(
-      "tracks.csv", "t,track_id,x,y\n1718091015.5,1,0,0\n1718091016.5,1,1,0\n");
-  const Figure figure = figure_of({.tracks = tracks, .truth = {}, .detections = {}, .panels = {"x"},
-                                   .title = {}, .reading = {}});
+  const auto tracks =
+      folder.write("tracks.csv", "t,track_id,x,y\n1718091015.5,1,0,0\n1718091016.5,1,1,0\n");
+  const Figure figure = figure_of({.tracks = tracks,
+                                   .truth = {},
+                                   .detections = {},
+                                   .panels = {"x"},
+                                   .title = {},
+                                   .reading = {}});
   EXPECT_THAT(figure.panels.at(0).curves.at(0).x, ElementsAre(0.5, 1.5));
   EXPECT_EQ(figure.panels[0].x_label, "t − 2024-06-11T07:30:15Z [s]");
 }

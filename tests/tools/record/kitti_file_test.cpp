@@ -70,10 +70,11 @@ TEST(KittiFile, WritesWhatItReads) {
 // Property: defects are named with their line.
 TEST(KittiFile, NamesDefects) {
   const ScratchFolder folder;
-  const auto path = folder.write(
-      "a.txt", "0 7 Car 0 0 -1.5 10 20 110 70 1.5 1.6 3.9 2 1.5 20 -1.6\n"
-               "1 7 Car 0 0 -1.5 10 20 9 70 1.5 1.6 3.9 2 1.5 20 -1.6\n"
-               "2 7 Car 0 0 -1.5 10 oops 110 70 1.5 1.6 3.9 2 1.5 20 -1.6\n-1 7 Car\n");
+  const auto path =
+      folder.write("a.txt",
+                   "0 7 Car 0 0 -1.5 10 20 110 70 1.5 1.6 3.9 2 1.5 20 -1.6\n"
+                   "1 7 Car 0 0 -1.5 10 20 9 70 1.5 1.6 3.9 2 1.5 20 -1.6\n"
+                   "2 7 Car 0 0 -1.5 10 oops 110 70 1.5 1.6 3.9 2 1.5 20 -1.6\n-1 7 Car\n");
   try {
     KittiReader(path, MotKind::kTruth);
     FAIL() << "accepted";

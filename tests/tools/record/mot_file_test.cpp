@@ -257,8 +257,12 @@ TEST(MotFile, ReadsWhatItWrites) {
 // Property: the first character tells the formats apart.
 TEST(MotFile, IsToldFromCsvByItsFirstLine) {
   const ScratchFolder folder;
-  for (const char* text : {"1,-1,1,2,3,4\n", "\xef\xbb\xbf" "1,-1,1,2,3,4", "\n1, -1, 1, 2, 3, 4, 1\r\n",
-                           "frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z\n1,-1,1,2,3,4,1\n"}) {
+  for (const char* text :
+       {"1,-1,1,2,3,4\n",
+        "\xef\xbb\xbf"
+        "1,-1,1,2,3,4",
+        "\n1, -1, 1, 2, 3, 4, 1\r\n",
+        "frame,id,bb_left,bb_top,bb_width,bb_height,conf,x,y,z\n1,-1,1,2,3,4,1\n"}) {
     EXPECT_TRUE(looks_like_mot_file(folder.write("a", text))) << text;
     EXPECT_EQ(rows_of(text, MotKind::kDetections).size(), 1U) << text;
   }
@@ -300,9 +304,14 @@ TEST(TextFile, RefusesWhatIsNoRegularFile) {
   };
   const auto pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(message(pipe), pipe.string() + ": error: this is no regular file; what comes through a pipe is read with '-'");
-  EXPECT_EQ(message("/dev/zero"), "/dev/zero: error: this is no regular file; what comes through a pipe is read with '-'");
-  EXPECT_THAT(message(folder.path()), HasSubstr("this is no regular file; what comes through a pipe is read with '-'"));
+  EXPECT_EQ(message(pipe),
+            pipe.string() +
+                ": error: this is no regular file; what comes through a pipe is read with '-'");
+  EXPECT_EQ(
+      message("/dev/zero"),
+      "/dev/zero: error: this is no regular file; what comes through a pipe is read with '-'");
+  EXPECT_THAT(message(folder.path()),
+              HasSubstr("this is no regular file; what comes through a pipe is read with '-'"));
   EXPECT_EQ(message(folder.path() / "none"),
             (folder.path() / "none").string() + ": error: cannot read: No such file or directory");
 }
@@ -319,12 +328,12 @@ TEST(TextFile, ParsesNumbersStrictly) {
   EXPECT_FALSE(parse_whole("1e300").has_value());
 }
 
-// Property: the short way through a line sees what fields that are split and read one by one say, and
-// leaves what it does not understand to them.
+// Property: the short way through a line sees what fields that are split and read one by one say,
+// and leaves what it does not understand to them.
 TEST(TextFile, ReadsPlainNumbersAsItReadsFields) {
   std::array<double, 4> room{};
-  for (const std::string line :
-       {"1,-2,3.25,0.1", " 7,\t008, -.5,5.", "-0,123456789012345,1234567.12345678,0.00000000000001"}) {
+  for (const std::string line : {"1,-2,3.25,0.1", " 7,\t008, -.5,5.",
+                                 "-0,123456789012345,1234567.12345678,0.00000000000001"}) {
     std::vector<std::string_view> fields;
     std::vector<std::string> owned;
     split_fields(line, fields, owned);
@@ -334,8 +343,8 @@ TEST(TextFile, ReadsPlainNumbersAsItReadsFields) {
       EXPECT_EQ(std::signbit(room[i]), std::signbit(*parse_number(fields[i]))) << line;
     }
   }
-  for (const char* line : {"", "1,", ",1", "1,2 ", "1;2", "1,\"2\"", "1,+2", "1,2e3", "1,nan", "1,--2",
-                           "1,.", "1,-", "1,2,3,4,5", "1,1234567890123456", "1\t2"}) {
+  for (const char* line : {"", "1,", ",1", "1,2 ", "1;2", "1,\"2\"", "1,+2", "1,2e3", "1,nan",
+                           "1,--2", "1,.", "1,-", "1,2,3,4,5", "1,1234567890123456", "1\t2"}) {
     EXPECT_EQ(plain_numbers(line, room), 0U) << line;
   }
 }

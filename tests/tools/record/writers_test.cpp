@@ -219,9 +219,12 @@ TEST(RunWriter, WritesMoreOfTheTruthIfAsked) {
                two_objects());
   EXPECT_EQ(folder.read("events.csv"),
             "t,event,truth_id,name,other_id,other,x,y,impulse_x,impulse_y\n"
-            "0.25,contact,1,fly ball,0," + other_name + ",1,2,-3,0.5\n"
-            "0.5,contact,1,fly ball,,walls[2],1,0,0,4\n"
-            "0.75,burst,0," + other_name + ",,,7,8,0,0\n");
+            "0.25,contact,1,fly ball,0," +
+                other_name +
+                ",1,2,-3,0.5\n"
+                "0.5,contact,1,fly ball,,walls[2],1,0,0,4\n"
+                "0.75,burst,0," +
+                other_name + ",,,7,8,0,0\n");
 }
 
 // Property: of two sensors at one instant, truth and tracks have one row per time.

@@ -57,7 +57,8 @@ std::vector<cv::Mat> pictures_of(const std::filesystem::path& video) {
 TEST(Footage, GoesThroughAFolderOfPictures) {
   const ScratchFolder folder;
   write_pictures(folder.path() / "img1", 11);  // img_10 comes after img_9
-  FootageWriter writer({.path = folder.path() / "out.mp4", .background = folder.path(), .fps = 10.0});
+  FootageWriter writer(
+      {.path = folder.path() / "out.mp4", .background = folder.path(), .fps = 10.0});
   EXPECT_EQ(writer.background().images, 11U);
   EXPECT_EQ(film(writer), 11U);
   const auto pictures = pictures_of(folder.path() / "out.mp4");
@@ -89,16 +90,18 @@ TEST(Footage, ShowsUnevenPicturesAtTheirTimes) {
   const ScratchFolder folder;
   write_pictures(folder.path() / "in", 4);
   const auto file = [&](int i) {
-    return "file '" + (folder.path() / "in" / ("img_" + std::to_string(i) + ".png")).string() + "'\n";
+    return "file '" + (folder.path() / "in" / ("img_" + std::to_string(i) + ".png")).string() +
+           "'\n";
   };
   // 0.1 s, 0.4 s, 0.1 s, 0.1 s
   folder.write("list.txt", file(0) + "duration 0.1\n" + file(1) + "duration 0.4\n" + file(2) +
                                "duration 0.1\n" + file(3) + "duration 0.1\n" + file(3));
-  const std::string command = "ffmpeg -v error -f concat -safe 0 -i " +
-                              (folder.path() / "list.txt").string() +
-                              " -vsync vfr -pix_fmt yuv420p " + (folder.path() / "vfr.mp4").string();
+  const std::string command =
+      "ffmpeg -v error -f concat -safe 0 -i " + (folder.path() / "list.txt").string() +
+      " -vsync vfr -pix_fmt yuv420p " + (folder.path() / "vfr.mp4").string();
   if (std::system(command.c_str()) != 0) GTEST_SKIP() << "no ffmpeg";
-  FootageWriter writer({.path = folder.path() / "out.mp4", .background = folder.path() / "vfr.mp4"});
+  FootageWriter writer(
+      {.path = folder.path() / "out.mp4", .background = folder.path() / "vfr.mp4"});
   const double fps = writer.background().fps;
   film(writer);
   const auto pictures = pictures_of(folder.path() / "out.mp4");
@@ -119,9 +122,9 @@ TEST(Footage, TurnsAVideoAsItSays) {
   const std::string in = (folder.path() / "in").string();
   const std::string plain = (folder.path() / "plain.mp4").string();
   const std::string turned = (folder.path() / "turned.mp4").string();
-  const std::string command = "ffmpeg -v error -framerate 10 -i " + in + "/img_%d.png -pix_fmt yuv420p " +
-                              plain + " && ffmpeg -v error -i " + plain +
-                              " -c copy -metadata:s:v:0 rotate=90 " + turned;
+  const std::string command = "ffmpeg -v error -framerate 10 -i " + in +
+                              "/img_%d.png -pix_fmt yuv420p " + plain + " && ffmpeg -v error -i " +
+                              plain + " -c copy -metadata:s:v:0 rotate=90 " + turned;
   if (std::system(command.c_str()) != 0) GTEST_SKIP() << "no ffmpeg";
   FootageWriter writer({.path = folder.path() / "out.mp4", .background = turned});
   EXPECT_EQ(writer.background().width, 200);
@@ -152,7 +155,8 @@ TEST(Footage, RefusesWhatIsNoBackground) {
   folder.write("text.mp4", "no video\n");
   const auto message = [&](const char* background) -> std::string {
     try {
-      FootageWriter writer({.path = folder.path() / "out.mp4", .background = folder.path() / background});
+      FootageWriter writer(
+          {.path = folder.path() / "out.mp4", .background = folder.path() / background});
     } catch (const RequestError& error) {
       return error.what();
     }

@@ -29,9 +29,8 @@ VideoOptions without_letters() {
   options.width = 640;
   options.height = 360;
   options.layers.show(Layer::kFans);
-  for (const Layer layer :
-       {Layer::kFieldOfView, Layer::kLabels, Layer::kNames, Layer::kHud, Layer::kLegend,
-        Layer::kGrid})
+  for (const Layer layer : {Layer::kFieldOfView, Layer::kLabels, Layer::kNames, Layer::kHud,
+                            Layer::kLegend, Layer::kGrid})
     options.layers.hide(layer);
   return options;
 }

@@ -24,7 +24,8 @@ std::vector<ObjectInfo> named(const std::vector<std::string>& names) {
 // Property: up to as many objects as there are colours have colours of their own.
 TEST(ObjectColors, AreDifferentAsLongAsThereAreColours) {
   std::vector<std::string> names = {"red", "blue balloon", "red ball", "Green", "throw"};
-  while (names.size() < kDark.tracks.size()) names.push_back("ball " + std::to_string(names.size()));
+  while (names.size() < kDark.tracks.size())
+    names.push_back("ball " + std::to_string(names.size()));
   std::set<std::size_t> used;
   for (const auto& [object, color] : object_colors(named(names))) used.insert(color);
   EXPECT_EQ(used.size(), kDark.tracks.size());
@@ -32,8 +33,8 @@ TEST(ObjectColors, AreDifferentAsLongAsThereAreColours) {
   EXPECT_EQ(object_colors(named(names)).size(), names.size());
 }
 
-// Property: who is named after a colour has it, wherever it stands in the scene; "greenhouse" is not
-// the name of one.
+// Property: who is named after a colour has it, wherever it stands in the scene; "greenhouse" is
+// not the name of one.
 TEST(ObjectColors, AreThoseThatNamesSay) {
   const std::vector<ObjectInfo> objects =
       named({"greenhouse", "yellow", "orange", "the blue balloon", "Green", "violet", "red"});
@@ -49,7 +50,8 @@ TEST(ObjectColors, AreThoseThatNamesSay) {
   EXPECT_NE(colors.at(0), colors.at(4));
 }
 
-// Property: an object that is added at the end changes nobody's colour, unless it is named after one.
+// Property: an object that is added at the end changes nobody's colour, unless it is named after
+// one.
 TEST(ObjectColors, StayWhenAnObjectIsAdded) {
   const auto before = object_colors(named({"a", "blue", "b"}));
   const auto after = object_colors(named({"a", "blue", "b", "c"}));

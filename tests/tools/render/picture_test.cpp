@@ -90,7 +90,8 @@ TEST(Picture, HidesWhatIsToBeHidden) {
 }
 
 // Derived: an estimate's ring lies 10 px around its position; tracks that are alive together have
-// different colours, whatever their ids, and others than that of the ball, which they do not follow.
+// different colours, whatever their ids, and others than that of the ball, which they do not
+// follow.
 TEST(Picture, DrawsEstimatesThatAreAliveTogetherInDifferentColours) {
   const VideoOptions options;
   const SceneDrawing scene = one_ball();
@@ -211,8 +212,8 @@ TEST(Picture, RemembersWhereThingsWereAsLongAsTheTrail) {
       if (t == 0.0) {
         Detection detection;
         detection.position = detected;
-        frame.arrived = {{.scan = {.time = 0.0, .sensor = 0, .detections = {detection}},
-                          .origins = {0}}};
+        frame.arrived = {
+            {.scan = {.time = 0.0, .sensor = 0, .detections = {detection}}, .origins = {0}}};
       }
       picture.draw(frame, image);
     }
@@ -284,8 +285,8 @@ TEST(Layout, PutsThePlotWhereThereIsRoom) {
   EXPECT_EQ(lay_out(VideoOptions{}, scene, Style{}, 40.0).plots.width, 1280.0);
 }
 
-// Property: a close-up that may lie anywhere lies where nobody ever is, or is left out; whoever goes
-// through a strip at one side leaves room at the other.
+// Property: a close-up that may lie anywhere lies where nobody ever is, or is left out; whoever
+// goes through a strip at one side leaves room at the other.
 TEST(Layout, HidesNobodyBelowCloseUps) {
   int left_out = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
@@ -301,7 +302,8 @@ TEST(Layout, HidesNobodyBelowCloseUps) {
       for (int i = 0; i <= 50; ++i) scene.places.push_back(from + (to - from) * (i / 50.0));
     }
     VideoOptions options;
-    options.close_ups = {{.target = 0, .corner = std::nullopt}, {.target = 0, .corner = std::nullopt}};
+    options.close_ups = {{.target = 0, .corner = std::nullopt},
+                         {.target = 0, .corner = std::nullopt}};
     options.close_ups = place_close_ups(options, scene, Style{}, 64.0);
     left_out += options.close_ups.empty() ? 1 : 0;
     const Layout layout = lay_out(options, scene, Style{}, 64.0);

@@ -57,8 +57,9 @@ TEST(TrackMemory, TellsTracksApartByColour) {
   }
 }
 
-// Property: an object's name is enough as long as one track follows it, whatever number that was born
-// with; a track that takes over shows that it does, and one that follows nobody has its number alone.
+// Property: an object's name is enough as long as one track follows it, whatever number that was
+// born with; a track that takes over shows that it does, and one that follows nobody has its number
+// alone.
 TEST(TrackMemory, NumbersTracksWhereNamesDoNotTellThemApart) {
   const std::vector<ObjectInfo> named = objects();
   TrackMemory memory({}, named);
@@ -79,7 +80,8 @@ TEST(TrackMemory, NumbersTracksWhereNamesDoNotTellThemApart) {
   EXPECT_EQ(label_of(2.0, 90, std::nullopt), U"#90 · 0.0 m/s");
 }
 
-// Property: a trail goes through what was said of every scan, however few of them a frame is drawn at.
+// Property: a trail goes through what was said of every scan, however few of them a frame is drawn
+// at.
 TEST(TrackMemory, KeepsEveryScanOfATrail) {
   const std::vector<ObjectInfo> named = objects();
   TrackMemory memory({}, named);

@@ -125,8 +125,8 @@ TEST_F(Video, RepeatsItsBytes) {
   }
 }
 
-// Property: a film of several pieces has the same bytes whatever the number of those that are made at a
-// time, also if it goes on from what was not shown.
+// Property: a film of several pieces has the same bytes whatever the number of those that are made
+// at a time, also if it goes on from what was not shown.
 TEST_F(Video, HasTheSameBytesForAnyNumberOfJobs) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffprobe is not installed";
   std::string first;

@@ -32,7 +32,8 @@ double error_of(std::size_t cell, std::size_t regime, std::size_t filter) {
 
 void add_rows(Comparison& comparison, std::size_t cell, const std::string& regime,
               const std::string& object, double (*scale)(std::size_t), std::size_t regime_index) {
-  const Hindsight hindsight{.raw = 0.4, .best_fixed_gains = 0.15, .best = {}, .crlb = 0.12, .smoother = 0.1};
+  const Hindsight hindsight{
+      .raw = 0.4, .best_fixed_gains = 0.15, .best = {}, .crlb = 0.12, .smoother = 0.1};
   for (const Metric metric : all_metrics()) {
     for (std::size_t filter = 0; filter < kFilters; ++filter) {
       const double mean = error_of(cell, regime_index, filter) * scale(filter);

@@ -99,8 +99,8 @@ HandedOn hand_on(const BoxOutputConfig& output, const std::vector<MotRow>& detec
   return result;
 }
 
-// Property: by default the rows of an image are handed on with it; gaps that may be closed keep them
-// back for so long, and filling as long as a track goes on, however many images there are.
+// Property: by default the rows of an image are handed on with it; gaps that may be closed keep
+// them back for so long, and filling as long as a track goes on, however many images there are.
 TEST(BoxTracking, HoldsNoMoreThanMayChange) {
   for (const int frames : {300, 900}) {
     const std::vector<MotRow> detections = crowd(frames);

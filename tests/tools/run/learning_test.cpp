@@ -51,7 +51,8 @@ TEST_P(Units, ChangeNothingButTheScale) {
     EXPECT_EQ(same[i].status, tracks[i].status);
     EXPECT_NEAR(*same[i].existence, *tracks[i].existence, error);
     EXPECT_LE((same[i].position - length * tracks[i].position).norm(), error * length);
-    EXPECT_LE((same[i].velocity - length / time * tracks[i].velocity).norm(), error * length / time);
+    EXPECT_LE((same[i].velocity - length / time * tracks[i].velocity).norm(),
+              error * length / time);
   }
 }
 
@@ -64,8 +65,8 @@ INSTANTIATE_TEST_SUITE_P(UpToRounding, Units,
 
 class Speeds : public ::testing::TestWithParam<double> {};
 
-// Property: a target is one track however far it goes from scan to scan, beside its noise: ships and
-// aircraft whose positions are as good as exact.
+// Property: a target is one track however far it goes from scan to scan, beside its noise: ships
+// and aircraft whose positions are as good as exact.
 TEST_P(Speeds, AreFollowedWithOneTrackEach) {
   const LearningScene scene{.targets = 2,
                             .noise_x = 5.0 / GetParam(),
@@ -81,7 +82,8 @@ TEST_P(Speeds, AreFollowedWithOneTrackEach) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BesideTheNoise, Speeds, ::testing::Values(2.0, 20.0, 200.0, 2e3, 2e4, 1e6));
+INSTANTIATE_TEST_SUITE_P(BesideTheNoise, Speeds,
+                         ::testing::Values(2.0, 20.0, 200.0, 2e3, 2e4, 1e6));
 
 /// One target that is seen at whole numbers, wherever it is.
 std::vector<Scan> seen_at_whole_numbers(double speed) {
@@ -99,13 +101,15 @@ std::vector<Scan> seen_at_whole_numbers(double speed) {
 // those of a path that is 3 m further on every time have none.
 TEST(LearnedConfig, TellsRoundingFromMotion) {
   for (const double speed : {0.05, 0.37, 2.6}) {
-    const LearnedTracker learned = learn_offline({}, recorded(seen_at_whole_numbers(speed))).learned;
+    const LearnedTracker learned =
+        learn_offline({}, recorded(seen_at_whole_numbers(speed))).learned;
     EXPECT_GT(learned.sensors[0].noise.x.value, 0.28) << speed;
     EXPECT_LT(learned.sensors[0].noise.x.value, 0.5) << speed;
     EXPECT_LT(learned.sensors[0].noise.y.value, 0.01) << speed;
   }
   for (const double speed : {3.0, 20.0}) {
-    const LearnedTracker learned = learn_offline({}, recorded(seen_at_whole_numbers(speed))).learned;
+    const LearnedTracker learned =
+        learn_offline({}, recorded(seen_at_whole_numbers(speed))).learned;
     EXPECT_LT(learned.sensors[0].noise.x.value, 0.01) << speed;
   }
 }
@@ -136,8 +140,9 @@ TEST(LearnedConfig, KeepsWhatIsSaid) {
   EXPECT_GT(learned.learned.classes.at("default").process_density.value, 0.0);
 }
 
-// Property: the intervals that are printed hold the true values. Of 5 · 20 intervals 95 do where all
-// detections are known to be whose they are; fewer than 85 would then be seen once in 10 000 times.
+// Property: the intervals that are printed hold the true values. Of 5 · 20 intervals 95 do where
+// all detections are known to be whose they are; fewer than 85 would then be seen once in 10 000
+// times.
 TEST(LearnedConfig, IntervalsHoldTheTrueValues) {
   const LearningScene scene{.noise_x = 2.0, .noise_y = 1.0};
   int held = 0;

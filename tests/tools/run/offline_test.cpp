@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/metrics/point_scoring.hpp"
 #include "tools/data/scan_reader.hpp"
+#include "tools/metrics/point_scoring.hpp"
 
 namespace ghtrack {
 namespace {

@@ -52,8 +52,8 @@ TEST(Online, SaysNothingWithHindsight) {
   }
 }
 
-// Property: whenever more is learned, everything is tracked anew with it, so that after it the tracks
-// are those of a tracker that has been told so from the first scan on; ids apart.
+// Property: whenever more is learned, everything is tracked anew with it, so that after it the
+// tracks are those of a tracker that has been told so from the first scan on; ids apart.
 TEST(Online, EndsAsATrackerThatWasToldSo) {
   for (const Association association : {Association::kNearestGlobal, Association::kMultiScan}) {
     const std::vector<Scan> scans = LearningScene{}.record(6);

@@ -150,8 +150,7 @@ TEST(Run, TellsNothingTwiceWithoutLatency) {
 
 /// Position errors of a contender over a run, record by record.
 std::vector<Vec2> estimates_of(const WorldScene& scene, TruthSource& truth,
-                               const std::vector<Contender>& contenders,
-                               const std::string& name) {
+                               const std::vector<Contender>& contenders, const std::string& name) {
   std::vector<Vec2> estimates;
   Listener listener;
   listener.on_tracks = [&](const StepRecord& record) {
@@ -169,8 +168,8 @@ TEST(Run, GivesEveryContenderTheSameScans) {
   SimulatedTruth simulated([&] { return make_world(scene); });
   const auto replayed =
       repeatable_truth([&] { return make_world(scene); }, scan_instants(scene), [] {});
-  const Contender quick = with_filter(
-      scene, "quick", GhConfig{.design = gain_design::Manual<1>{.g = 0.8, .h = 0.3}});
+  const Contender quick =
+      with_filter(scene, "quick", GhConfig{.design = gain_design::Manual<1>{.g = 0.8, .h = 0.3}});
   const std::vector<Contender> alone = {quick};
   const std::vector<Contender> among = {own_tracker(scene), quick};
   const std::vector<Vec2> wanted = estimates_of(scene, simulated, alone, "quick");

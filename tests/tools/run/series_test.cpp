@@ -18,7 +18,8 @@ SeriesScene weights() {
   filter.name = "learned";
   filter.x0 = 160.0;
   filter.dx0 = 1.0;
-  filter.model = FreeGains<1>{.design = gain_design::Manual<1, gain_design::Stability::kFree>{.g = 0.6, .h = 2.0 / 3.0}};
+  filter.model = FreeGains<1>{
+      .design = gain_design::Manual<1, gain_design::Stability::kFree>{.g = 0.6, .h = 2.0 / 3.0}};
   scene.filters = {filter};
   return scene;
 }
@@ -41,7 +42,8 @@ SeriesScene hallway(double accuracy, std::vector<double> kernel) {
   scene.data = WalkSeries{.points = 60, .map = map, .kernel = kernel, .accuracy = 0.9};
   SeriesFilter filter;
   filter.name = "dog";
-  filter.model = DiscreteBayesConfig{.map = map, .accuracy = accuracy, .movement = 1, .kernel = kernel};
+  filter.model =
+      DiscreteBayesConfig{.map = map, .accuracy = accuracy, .movement = 1, .kernel = kernel};
   scene.filters = {filter};
   return scene;
 }
@@ -50,8 +52,8 @@ double largest(const discrete_bayes::Belief& belief) {
   return *std::max_element(belief.begin(), belief.end());
 }
 
-// Property: a dog in a hallway is found by doors; every step spreads the belief, a reading that says
-// nothing leaves it as it is, and telling ones gather it again.
+// Property: a dog in a hallway is found by doors; every step spreads the belief, a reading that
+// says nothing leaves it as it is, and telling ones gather it again.
 TEST(Series, FindsADogInAHallwayByItsDoors) {
   const SeriesTrack heard = run(hallway(0.9, {0.1, 0.8, 0.1})).tracks.at(0);
   int found = 0;

@@ -22,7 +22,8 @@ targets:
   - {name: one, ball: {type: baseball, position: [0, 1], velocity: [12, 55]}}
   - {name: two, ball: {type: tennis, position: [500, 1], velocity: [-9, 50]}}
 sensors: [{name: camera, rate: 10, noise: 0.8, detection_probability: 0.9}]
-tracker: {association: known, filters: {default: )" + filter + "}}\n";
+tracker: {association: known, filters: {default: )" +
+                           filter + "}}\n";
   return std::get<WorldScene>(read_scene_text(text, "test.yaml"));
 }
 

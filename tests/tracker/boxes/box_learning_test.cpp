@@ -53,8 +53,8 @@ TEST(VarianceFactor, FindsTheNoiseThatExplainsTheResiduals) {
   }
 }
 
-// Property: the error of a detector's sizes is told from what the objects change by, and one box in ten
-// of an object that is hidden in part does not spoil it.
+// Property: the error of a detector's sizes is told from what the objects change by, and one box in
+// ten of an object that is hidden in part does not spoil it.
 TEST(SizeStatistics, TellsErrorsFromWhatObjectsChangeBy) {
   const SizeStatistics::Variances assumed{0.15 * 0.15, 0.02 * 0.02};
   EXPECT_NEAR(std::sqrt(SizeStatistics().error(assumed)), 0.15, 1e-12);

@@ -117,7 +117,8 @@ TEST(Batch, SweepsManyGainsLikeOneAfterTheOther) {
   }
 }
 
-// Property: a series in pieces has the bits of one filter that goes through it, whatever it forgets.
+// Property: a series in pieces has the bits of one filter that goes through it, whatever it
+// forgets.
 TEST(Batch, FiltersASeriesLikeOneFilterStepByStep) {
   std::mt19937_64 engine(3);
   std::normal_distribution<double> normal;

@@ -40,7 +40,8 @@ TEST(ImmFilter, OfEqualModesIsTheFilterItself) {
   }
 }
 
-// Derived: one cycle of two one-state-each modes by hand: Blom & Bar-Shalom's equations on one axis.
+// Derived: one cycle of two one-state-each modes by hand: Blom & Bar-Shalom's equations on one
+// axis.
 TEST(ImmFilter, MixesByTheBook) {
   const double p = 0.1, q[2] = {0.01, 4.0}, dt = 1.0;
   ImmFilter imm({{"a", polynomial(1, q[0])}, {"b", polynomial(1, q[1])}}, p);

@@ -102,22 +102,21 @@ Outcome circle_under_radar(Filter filter, bool polar, std::uint64_t seed) {
     Filter f = filter;
     for (int i = 0; i < kSteps; ++i) {
       const double angle = kRate * kStep * i;
-      const Vector2d truth =
-          centre + kSpeed / kRate * Vector2d(std::cos(angle), std::sin(angle));
+      const Vector2d truth = centre + kSpeed / kRate * Vector2d(std::cos(angle), std::sin(angle));
       const Vector2d offset = truth - site;
       const double range = offset.norm() + kRange * normal(random);
       const double bearing = std::atan2(offset.y(), offset.x()) + kBearing * normal(random);
       const Vector2d u(std::cos(bearing), std::sin(bearing)), v(-u.y(), u.x());
       Detection detection;
       detection.position = site + range * u;
-      detection.covariance = kRange * kRange * u * u.transpose() +
-                             std::pow(range * kBearing, 2) * v * v.transpose();
+      detection.covariance =
+          kRange * kRange * u * u.transpose() + std::pow(range * kBearing, 2) * v * v.transpose();
       const double wrapped = std::remainder(bearing, 2.0 * std::numbers::pi);
       if (polar) {
-        detection.measured = Measurement{
-            Vector2d(range, wrapped),
-            Matrix2d(Vector2d(kRange * kRange, kBearing * kBearing).asDiagonal()),
-            RangeBearingModel{site}};
+        detection.measured =
+            Measurement{Vector2d(range, wrapped),
+                        Matrix2d(Vector2d(kRange * kRange, kBearing * kBearing).asDiagonal()),
+                        RangeBearingModel{site}};
       }
       if (i > 0) predict(f, kStep);
       update(f, detection);
@@ -138,10 +137,12 @@ Outcome circle_under_radar(Filter filter, bool polar, std::uint64_t seed) {
 // the jump of the bearing at 180 degrees, too; and the predicted error is that made.
 TEST(MotionFilter, FollowsATurnUnderARadar) {
   const CoordinatedTurn turning{.spectral_density = 0.05, .turn_density = 1e-5};
-  const double straight = circle_under_radar(
-      make_filter(KalmanCvConfig{.model = process::WhiteNoise<1>{.spectral_density = 10.0}}, 5.0,
-                  kStep),
-      false, 3).squares;
+  const double straight =
+      circle_under_radar(
+          make_filter(KalmanCvConfig{.model = process::WhiteNoise<1>{.spectral_density = 10.0}},
+                      5.0, kStep),
+          false, 3)
+          .squares;
   for (const FilterConfig& config :
        {FilterConfig(EkfConfig{.motion = turning}), FilterConfig(UkfConfig{.motion = turning})}) {
     const Outcome outcome = circle_under_radar(make_filter(config, 5.0, kStep), true, 3);

@@ -80,8 +80,8 @@ TEST(Smoother, SolvesForTheWholePathAtOnce) {
   }
 }
 
-// Property: what was learned later helps, of every kind of filter; a lag of all moments is no limit,
-// and none is the filter itself.
+// Property: what was learned later helps, of every kind of filter; a lag of all moments is no
+// limit, and none is the filter itself.
 TEST(Smoother, IsBetterThanTheFilter) {
   GhConfig manual{.design = gain_design::Manual<1>{.g = 0.4, .h = 0.1}};
   GhkConfig third{.design = gain_design::TrackingIndex<2>{.process_noise = 0.3}};

@@ -44,8 +44,9 @@ TEST(ImpliedNoise, IsThatForWhichTheGainsAreTheBest) {
 // Property: gains that ring more than any Kalman filter stand for one that lags as little or less
 // behind what they cannot follow.
 TEST(ImpliedNoise, OfRingingGainsFollowsAsQuickly) {
-  for (const Gains& gains : {Gains::of_gh(0.5, 0.2), Gains::of_gh(0.05, 0.3), Gains::of_gh(0.8, 1.5),
-                             Gains::of_ghk(0.5, 0.2, 0.05), Gains::of_ghk(0.3, 0.5, 0.08)}) {
+  for (const Gains& gains :
+       {Gains::of_gh(0.5, 0.2), Gains::of_gh(0.05, 0.3), Gains::of_gh(0.8, 1.5),
+        Gains::of_ghk(0.5, 0.2, 0.05), Gains::of_ghk(0.3, 0.5, 0.08)}) {
     const Gains best = settled_gains(implied_noise(gains, 1.0, 1.0), gains.order, 1.0, 1.0);
     EXPECT_TRUE(is_stable(best));
     const double lag = std::abs(steady_lag(gains, 1.0, 1.0).x);
@@ -118,8 +119,8 @@ std::vector<FilterConfig> designs() {
   index.design = gain_design::TrackingIndex<1>{.process_noise = 2.0};
   bordner.design = gain_design::BenedictBordner<1>{0.4};
   memory.design = gain_design::FadingMemory<1>{0.7};
-  white.design = gain_design::TrackingIndex<1>{.model = ProcessModel::kWhiteNoise,
-                                               .spectral_density = 1.0};
+  white.design =
+      gain_design::TrackingIndex<1>{.model = ProcessModel::kWhiteNoise, .spectral_density = 1.0};
   fastest.design = gain_design::MaximumAcceleration{4.0};
   GhkConfig third;
   third.design = gain_design::TrackingIndex<2>{.process_noise = 1.0};
@@ -127,9 +128,19 @@ std::vector<FilterConfig> designs() {
   cv.model = process::PiecewiseConstant{.process_noise = 2.0};
   KalmanCaConfig ca;
   ca.model = process::PiecewiseConstant{.process_noise = 0.5};
-  return {manual<1>(0.2, 0.02), manual<1>(0.5, 0.2),        manual<1>(0.4, 0.1),
-          manual<2>(0.5, 0.2, 0.02), manual<2>(0.5, 0.2, 0.05), index, bordner, memory, white,
-          fastest, third, cv, ca};
+  return {manual<1>(0.2, 0.02),
+          manual<1>(0.5, 0.2),
+          manual<1>(0.4, 0.1),
+          manual<2>(0.5, 0.2, 0.02),
+          manual<2>(0.5, 0.2, 0.05),
+          index,
+          bordner,
+          memory,
+          white,
+          fastest,
+          third,
+          cv,
+          ca};
 }
 
 /// Interacting filters and filters side by side.
@@ -156,13 +167,12 @@ TEST(UnevenTimes, AreNoWorseThanTheBetterSensorAlone) {
   const auto straight = [](double t) { return 3.0 + 20.0 * t; };
   const auto winding = [](double t) { return 20.0 * t + 4.0 * std::sin(0.8 * t); };
   const Sensor fine{0.1, 0.0, 0.5};
-  const std::vector<std::vector<Sensor>> companies = {
-      {fine, {0.1001, 0.0, 0.5}},
-      {fine, {1.0 / 3.0, 0.037, 2.0}},
-      {fine, {0.1, 1e-5, 0.5}, {0.1, 0.0007, 0.5}},
-      {fine, {0.5, 0.002, 0.5}},
-      {fine, {0.0173, 0.004, 5.0}},
-      {fine, {0.0173, 0.004, 5e5}}};
+  const std::vector<std::vector<Sensor>> companies = {{fine, {0.1001, 0.0, 0.5}},
+                                                      {fine, {1.0 / 3.0, 0.037, 2.0}},
+                                                      {fine, {0.1, 1e-5, 0.5}, {0.1, 0.0007, 0.5}},
+                                                      {fine, {0.5, 0.002, 0.5}},
+                                                      {fine, {0.0173, 0.004, 5.0}},
+                                                      {fine, {0.0173, 0.004, 5e5}}};
   const auto judge = [&](const FilterConfig& config, int tracks) {
     const std::string name = gains_text(make_filter(config, fine.sigma, fine.period));
     for (const auto& company : companies) {
@@ -226,8 +236,7 @@ TEST(UnevenTimes, AreOvercomeAfterAnHourWithout) {
       for (int i = 0; i < 100; ++i) see(0.1, 500.0 - 20.0 * (t + 0.1 - then));
       squares += std::pow(estimate(filter).position.x() - (500.0 - 20.0 * (t - then)), 2);
     }
-    EXPECT_LT(std::sqrt(squares / kTracks), 0.5 * 1.2)
-        << gains_text(make_filter(config, 0.5, 0.1));
+    EXPECT_LT(std::sqrt(squares / kTracks), 0.5 * 1.2) << gains_text(make_filter(config, 0.5, 0.1));
   }
 }
 

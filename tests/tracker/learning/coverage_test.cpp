@@ -39,7 +39,8 @@ TEST(Coverage, OneObjectAtATimeIsRecognisedWithItsTurn) {
   EXPECT_NEAR(*revisit, 2.0, 1e-9);
 }
 
-/// Ships that report every so many seconds, each in its own rhythm, with times of a tenth of a second.
+/// Ships that report every so many seconds, each in its own rhythm, with times of a tenth of a
+/// second.
 std::vector<Scan> ships(const std::vector<double>& intervals) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit;
@@ -61,8 +62,8 @@ std::vector<Scan> ships(const std::vector<double>& intervals) {
   return scans;
 }
 
-// Property: where some objects are reported seldom and some often, and now and then two at once, the
-// time lies between those of the slow ones: nobody is missed who is not due.
+// Property: where some objects are reported seldom and some often, and now and then two at once,
+// the time lies between those of the slow ones: nobody is missed who is not due.
 TEST(Coverage, SeldomReportsAreWaitedFor) {
   const auto revisit = revisit_of(ships({2.0, 2.0, 6.0, 6.0, 10.0, 10.0, 10.0}));
   ASSERT_TRUE(revisit.has_value());

@@ -37,8 +37,9 @@ TEST(Learning, FindsWhatNobodyHasSaid) {
   }
 }
 
-// Property: few or many targets, slow or fast for their noise, among few or many false detections: the
-// scales are found. Their standard error is below 10 % where targets have 80 detections or more.
+// Property: few or many targets, slow or fast for their noise, among few or many false detections:
+// the scales are found. Their standard error is below 10 % where targets have 80 detections or
+// more.
 TEST(Learning, FindsTheScalesOfAllKindsOfScenes) {
   std::mt19937 random(3);
   const auto between = [&](double low, double high) {

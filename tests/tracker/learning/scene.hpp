@@ -12,14 +12,14 @@ namespace ghtrack {
 struct LearningScene {
   int targets = 6;
   int scans = 80;
-  double period = 1.0;              // [s]
-  double noise_x = 1.0;             // [m]
-  double noise_y = 1.0;             // [m]
-  double speed = 5.0;               // 1 sigma along each axis [m/s]
-  double process_density = 0.05;    // [m²/s³]
+  double period = 1.0;            // [s]
+  double noise_x = 1.0;           // [m]
+  double noise_y = 1.0;           // [m]
+  double speed = 5.0;             // 1 sigma along each axis [m/s]
+  double process_density = 0.05;  // [m²/s³]
   double detection_probability = 0.9;
-  double clutter = 8.0;             // a scan
-  double side = 400.0;              // of the square of the view [m]
+  double clutter = 8.0;  // a scan
+  double side = 400.0;   // of the square of the view [m]
 
   std::vector<Scan> record(unsigned seed) const {
     std::mt19937 random(seed);

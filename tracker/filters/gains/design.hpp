@@ -47,9 +47,10 @@ struct Manual {
 
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.field(
-        "g", &Manual::g,
-        {.unit = "1", .meaning = "share of the residual given to the position", .required = must_say});
+    v.field("g", &Manual::g,
+            {.unit = "1",
+             .meaning = "share of the residual given to the position",
+             .required = must_say});
     if constexpr (Order >= 1) {
       v.field("h", &Manual::h,
               {.unit = "1",

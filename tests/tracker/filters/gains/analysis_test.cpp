@@ -215,8 +215,8 @@ TEST(TransientEnergy, IsTheSumOverANoiselessTransient) {
   }
 }
 
-/// The size of the largest eigenvalue, lim ‖Aⁿ‖^(1/n) (I. Gelfand, Normierte Ringe, 1941): n doubles
-/// with each step.
+/// The size of the largest eigenvalue, lim ‖Aⁿ‖^(1/n) (I. Gelfand, Normierte Ringe, 1941): n
+/// doubles with each step.
 template <int N>
 double spectral_radius(Square<N> power) {
   double log_radius = 0.0;
