@@ -13,6 +13,7 @@ namespace ghtrack::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Filtered {
   std::vector<std::vector<std::string>> rows;  // the header first
@@ -125,6 +126,26 @@ TEST(FilterCommand, ReadsConfigurationsAsAScene) {
       shell("echo 1 | ghtrack filter --filter '{gh: {g: 0.5, hh: 0.2}}'", folder.path());
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("known keys: design, g, h"));
+}
+
+// Property: an option that the filter makes nothing of is named; -q silences it.
+TEST(FilterCommand, NamesOptionsThatDoNothing) {
+  const TemporaryFolder folder;
+  for (const auto& [options, unused] :
+       {std::pair("--filter gh --g 0.5 --h 0.2 --k 0.1 --theta 0.3", "--k, --theta do nothing"),
+        std::pair("--filter order0 --g 0.5 --h 0.2", "--h does nothing"),
+        std::pair("--filter least-squares --g 0.5", "--g does nothing"),
+        std::pair("--filter kalman-cv --q 1 --r 1 --order 2", "--order does nothing"),
+        std::pair("--filter '{gh: {g: 0.5, h: 0.2}}' --g 0.4", "--g does nothing")}) {
+    const std::string command = std::string("echo 1 | ghtrack filter --x0 0 ") + options;
+    const Outcome told = shell(command, folder.path());
+    EXPECT_EQ(told.exit_code, 0) << options;
+    EXPECT_THAT(told.err, HasSubstr(unused)) << options;
+    EXPECT_EQ(shell(command + " -q", folder.path()).err, "") << options;
+  }
+  EXPECT_THAT(
+      shell("echo 1 | ghtrack filter --x0 0 --filter gh --g 0.5 --h 0.2", folder.path()).err,
+      Not(HasSubstr("nothing")));
 }
 
 }  // namespace

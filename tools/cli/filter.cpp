@@ -1,6 +1,7 @@
 // `ghtrack filter`: a series of measurements through one filter, row by row.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
@@ -9,8 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/data_source.hpp"
 #include "tools/cli/interruption.hpp"
@@ -117,6 +120,7 @@ class Session {
   }
 
   void run() {
+    tell_of_unused_options();
     warn_of_unstable_gains();
     if (!options_.json) output_.header(rows_.axes(), plan_.order == 2);
     while (const std::optional<MeasuredRow> row = rows_.next()) {
@@ -152,6 +156,13 @@ class Session {
     const auto violated = filter_.gains() ? violated_inequality(*filter_.gains()) : std::nullopt;
     if (!violated || manners_.quiet) return;
     tell("ghtrack: warning: these gains are unstable: {} does not hold", *violated);
+  }
+
+  void tell_of_unused_options() const {
+    const std::vector<std::string_view> unused = unused_options(options_);
+    if (unused.empty() || manners_.quiet) return;
+    tell("ghtrack: warning: {} {} nothing with --filter {}", fmt::join(unused, ", "),
+         unused.size() == 1 ? "does" : "do", printable(options_.filter));
   }
 
   void say(const std::vector<std::string>& warnings) const {

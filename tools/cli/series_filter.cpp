@@ -140,6 +140,35 @@ KalmanFilter<Order, 1> kalman(const FilterCommandOptions& options, double dt,
 
 }  // namespace
 
+std::vector<std::string_view> unused_options(const FilterCommandOptions& options) {
+  const std::string& filter = options.filter;
+  const bool is_kalman = filter == KalmanCvConfig::kind || filter == KalmanCaConfig::kind;
+  const bool is_scalar = filter == ScalarKalmanConfig::kind;
+  const bool has_g = filter == FreeGains<0>::kind || filter == FreeGains<1>::kind ||
+                     filter == FreeGains<2>::kind ||
+                     filter == gain_design::BenedictBordner<1>::kind;
+  const bool has_h = filter == FreeGains<1>::kind || filter == FreeGains<2>::kind;
+  const bool fades = filter == gain_design::FadingMemory<1>::kind;
+  struct Option {
+    std::string_view name;
+    bool is_given, is_used;
+  };
+  std::vector<std::string_view> unused;
+  for (const Option& option :
+       {Option{"--g", options.g.has_value(), has_g},
+        {"--h", options.h.has_value(), has_h},
+        {"--k", options.k.has_value(), filter == FreeGains<2>::kind},
+        {"--theta", options.theta.has_value(), fades},
+        {"--order", options.order.has_value(), fades || filter == LeastSquaresConfig::kind},
+        {"--q", options.q.has_value(), is_kalman || is_scalar},
+        {"--r", options.r.has_value(), is_kalman || is_scalar},
+        {"--p0", options.p0.has_value(), is_kalman || is_scalar},
+        {"--u", options.u.has_value(), is_scalar}}) {
+    if (option.is_given && !option.is_used) unused.push_back(option.name);
+  }
+  return unused;
+}
+
 FilterPlan::FilterPlan(const FilterCommandOptions& options, std::size_t axes, bool are_timed)
     : guess(axes) {
   if (options.gamma) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "tools/cli/commands.hpp"
@@ -22,6 +23,9 @@ struct FilterPlan {
   std::optional<AxisFilterConfig> config;  // nothing: the textbook's Kalman filter of --q and --r
   int order = 1;
 };
+
+/// Those of the short options that were given and that the filter makes nothing of.
+std::vector<std::string_view> unused_options(const FilterCommandOptions& options);
 
 /// The filter that the options of `ghtrack filter` ask for: one for each axis, as its axes do not
 /// know of each other.

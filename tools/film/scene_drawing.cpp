@@ -14,6 +14,7 @@
 #include "sensors/view_geometry.hpp"
 #include "sim/regimes/rail_line.hpp"
 #include "sim/regimes/train.hpp"
+#include "tools/metrics/run_metrics.hpp"
 #include "tools/render/view.hpp"
 
 namespace ghtrack::film {
@@ -100,6 +101,36 @@ render::VideoOptions video_options(const WorldScene& scene, const std::vector<Ob
   return options;
 }
 
+namespace {
+
+/// Notes where everything goes, for close-ups that hide nobody, and makes them wide enough for some
+/// steps from detection to detection, as far as that is less than `widest` [m].
+void fit_to_motion(TruthSource& truth, double duration, double period, double widest,
+                   const std::function<void()>& on_step, render::SceneDrawing& drawing,
+                   std::vector<render::CloseUp>& close_ups) {
+  constexpr double kWidthInSteps = 4.0;
+  std::vector<double> speeds(drawing.objects.size(), 0.0);  // summed over the instants
+  std::vector<int> instants(drawing.objects.size(), 0);
+  truth.restart();
+  for (const double time : extent_instants(duration)) {
+    on_step();
+    const std::shared_ptr<const TruthSnapshot> snapshot = truth.at(time);
+    for (const BodyPose& body : snapshot->bodies) drawing.places.push_back(body.position);
+    for (const TruthState& object : snapshot->objects) {
+      if (!object.velocity.allFinite()) continue;
+      speeds[static_cast<std::size_t>(object.id)] += object.velocity.norm();
+      ++instants[static_cast<std::size_t>(object.id)];
+    }
+  }
+  for (render::CloseUp& close_up : close_ups) {
+    const auto object = static_cast<std::size_t>(close_up.target);
+    const double step = period * speeds[object] / std::max(1, instants[object]);
+    close_up.width = std::max(close_up.width, std::min(kWidthInSteps * step, widest));
+  }
+}
+
+}  // namespace
+
 void magnify_small_errors(const WorldScene& scene, TruthSource& truth,
                           const std::function<void()>& on_step, render::SceneDrawing& drawing,
                           render::VideoOptions& options) {
@@ -114,18 +145,18 @@ void magnify_small_errors(const WorldScene& scene, TruthSource& truth,
   const Vec2 size = world.max - world.min;
   const double aspect = static_cast<double>(options.width) / options.height;
   const double whole = std::max(size.x(), aspect * size.y());  // [m] across the picture
-  double sigma = 0.0;
-  for (const SensorTraits& sensor : traits_of(scene.sensors)) sigma = std::max(sigma, sensor.sigma);
-  if (!(sigma < kLeastVisible * whole)) return;
+  const RunMetricsOptions scoring = scoring_for(traits_of(scene.sensors));
+  if (!(scoring.sigma < kLeastVisible * whole)) return;
+  const double widest = 0.25 * size.x();
   for (const ObjectInfo& object : drawing.objects) {
     if (options.close_ups.size() == kMost) break;
-    const double width = std::max(kWidthInSigmas * sigma, kWidthInLengths * object.outline.length);
-    if (width * 4.0 > size.x()) continue;  // would show no more than the whole does
+    const double width =
+        std::max(kWidthInSigmas * scoring.sigma, kWidthInLengths * object.outline.length);
+    if (width > widest) continue;  // would show no more than the whole does
     options.close_ups.push_back({.target = object.id, .width = width, .corner = std::nullopt});
   }
   if (options.close_ups.empty()) return;
-  truth.restart();
-  drawing.places = places_visited(truth, scene.duration, on_step);
+  fit_to_motion(truth, scene.duration, scoring.period, widest, on_step, drawing, options.close_ups);
 }
 
 render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, TruthSource& truth,
@@ -155,7 +186,8 @@ render::SceneDrawing drawing_of(const WorldScene& scene, const World& world, Tru
                                .rate = sensor.rate,
                                .site = site_of(sensor),
                                .field_of_view = outline_of(sensor.view()),
-                               .has_clutter = sensor.clutter > 0.0});
+                               .has_clutter = sensor.clutter > 0.0,
+                               .has_ellipses = std::holds_alternative<Radar>(sensor.model)});
   }
   const Wind& wind = world.environment().wind();
   drawing.wind = [&wind](const Vec2& place, double time) { return wind.at(place, time); };

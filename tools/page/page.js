@@ -128,7 +128,7 @@
     verdict.textContent = theory.stable ? `Stable, ${theory.damping} damped.` : "Unstable.";
     const { order, sigma, dt } = theory;
     const unit = ["m/s", "m/s²", "m/s³"][order], what = ["a velocity", "an acceleration", "a jerk"][order];
-    const rows = [["gains", theory.gains]];
+    const rows = [[`gains at ${lab.short(dt)}\u00a0s, σ\u00a0${lab.short(sigma)}\u00a0m`, theory.gains]];
     if (theory.stable) {
       rows.push(["noise left", `${lab.short(Math.sqrt(theory.vrf.x) * sigma)}\u00a0m of ${lab.short(sigma)}\u00a0m`],
         [`lag behind ${what} of 1 ${unit}`, `${lab.short(theory.lag.x)} m`],

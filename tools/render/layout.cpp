@@ -13,6 +13,8 @@ constexpr double kHeaderHeight = 46.0;  // two lines
 constexpr double kPanelGap = 4.0;
 constexpr double kPlotShare = 0.2;  // of the picture's height
 constexpr double kCloseUpMargin = 12.0;
+constexpr double kNumbersBeside = 52.0;  // of the axes, which a close-up leaves room for
+constexpr double kNumbersBelow = 30.0;
 constexpr double kMarks = 24.0;  // around an object: its track, its detections
 
 /// Panels in columns and rows. Where a place is left over, it is for the plots; otherwise they get
@@ -45,11 +47,12 @@ Grid grid(const Viewport& area, int count, int columns, double gap, double strip
 Viewport corner_of(const Viewport& panel, VideoCorner corner, double share, const Style& style) {
   const double margin = style.length(kCloseUpMargin);
   const double width = share * panel.width;
-  const double height = std::min(0.75 * width, panel.height - 2.0 * margin);
+  const double height = std::min(0.75 * width, panel.height - margin - style.length(kNumbersBelow));
   const bool is_left = corner == VideoCorner::kTopLeft || corner == VideoCorner::kBottomLeft;
   const bool is_top = corner == VideoCorner::kTopLeft || corner == VideoCorner::kTopRight;
-  return {is_left ? panel.left + margin : panel.right() - margin - width,
-          is_top ? panel.top + margin : panel.bottom() - margin - height, width, height};
+  return {is_left ? panel.left + style.length(kNumbersBeside) : panel.right() - margin - width,
+          is_top ? panel.top + margin : panel.bottom() - style.length(kNumbersBelow) - height,
+          width, height};
 }
 
 /// Close-ups that share a corner lie one above the other.

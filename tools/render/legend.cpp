@@ -56,6 +56,10 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wi
       draw_detection(canvas, static_cast<int>(sign) - static_cast<int>(Sign::kDetection), m, 5 * u,
                      style.theme().detection, style.length(1.5));
       break;
+    case Sign::kError:
+      canvas.outline(ellipse_outline(m, {11 * u, -4 * u}, {1.5 * u, 4 * u}),
+                     {style.theme().detection, 0.7}, style.length(1));
+      break;
     case Sign::kPast:
       for (int i = 0; i < 3; ++i)
         canvas.cross(at(-8.0 + 8 * i, 3.0 - 3 * i), 2.2 * u,
@@ -153,6 +157,9 @@ Legend::Legend(const VideoOptions& options, const SceneDrawing& scene, const Sty
   const bool shows_past = layers.shows(Layer::kTrails);
   if (shows_past && layers.shows(Layer::kTruth)) add({Sign::kPath}, U"true path");
   if (layers.shows(Layer::kDetections)) add_detections(scene);
+  if (layers.shows(Layer::kDetections) &&
+      any_sensor([](const SensorDrawing& sensor) { return sensor.has_ellipses; }))
+    add({Sign::kError}, U"its error, 1σ");
   if (shows_past && layers.shows(Layer::kDetections)) add({Sign::kPast}, U"earlier");
   if (layers.shows(Layer::kClutter) &&
       any_sensor([](const SensorDrawing& sensor) { return sensor.has_clutter; }))

@@ -19,6 +19,7 @@ enum class Sign {
   kDetection,  // of the first sensor, the second, the third
   kSecondDetection,
   kThirdDetection,
+  kError,
   kPast,
   kPath,
   kClutter,

@@ -195,7 +195,7 @@ void Picture::draw_detections(Canvas& canvas, const Stage& stage, const VideoFra
       draw_detection(canvas, observation.scan.sensor, at, stage.style.length(5),
                      {style_.theme().detection, opacity}, stage.style.length(1.5));
       if (is_elongated(detection.covariance)) {
-        draw_ellipse(canvas, stage, detection, {style_.theme().detection, 0.5 * opacity});
+        draw_ellipse(canvas, stage, detection, {style_.theme().detection, 0.7 * opacity});
       }
     }
   }

@@ -88,6 +88,7 @@ struct SensorDrawing {
   std::optional<Vec2> site;         // where it stands [m]; absent: nowhere in particular
   std::vector<Vec2> field_of_view;  // its corners in order [m]; empty: sees everything
   bool has_clutter = false;
+  bool has_ellipses = false;  // the errors of its detections are larger in one direction
 };
 
 /// One of several compared filters, or the scene's own tracker.
