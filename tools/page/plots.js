@@ -121,7 +121,7 @@ lab.Plot = class {
     pen.drawImage(this.still, 0, 0);
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     const x = this.x(this.state.time);
-    pen.strokeStyle = this.state.colours.accent;
+    pen.strokeStyle = this.state.colours.text;
     pen.lineWidth = 1.5;
     pen.beginPath(); pen.moveTo(x, this.top); pen.lineTo(x, this.bottom); pen.stroke();
   }
