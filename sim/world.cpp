@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "sim/encounter.hpp"
+#include "sim/encounter/encounter.hpp"
 #include "sim/mover.hpp"
 #include "sim/neighbours.hpp"
 #include "sim/passages.hpp"
@@ -128,7 +128,8 @@ struct World::Scenery {
   Parts parts_of(const States& before, const States& after, const std::vector<std::size_t>& targets,
                  double from) const;
   static std::vector<std::size_t> targets_of(const Cluster& cluster, const Parts& parts);
-  Participant participant(const States& before, const Parts& parts, std::size_t box) const;
+  encounter::Participant participant(const States& before, const Parts& parts,
+                                     std::size_t box) const;
   std::int64_t settle_contacts(const States& before, States& after, Parts& parts, double from,
                                double to, Outcome* told = nullptr) const;
   ObjectId object_of(std::size_t target, int part) const {
@@ -455,8 +456,8 @@ std::vector<std::size_t> World::Scenery::targets_of(const Cluster& cluster, cons
   return targets;
 }
 
-Participant World::Scenery::participant(const States& before, const Parts& parts,
-                                        std::size_t box) const {
+encounter::Participant World::Scenery::participant(const States& before, const Parts& parts,
+                                                   std::size_t box) const {
   const SweptBox& swept = parts.boxes[box];
   const auto owner = static_cast<std::size_t>(swept.owner);
   return {&movers[owner], before[owner], parts.part[box], swept.owner, swept.carrier};
@@ -485,20 +486,20 @@ std::int64_t World::Scenery::settle_contacts(const States& before, States& after
       // In an order that does not depend on what else is in the world.
       std::sort(cluster.yielding.begin(), cluster.yielding.end(), by_name);
       std::sort(cluster.unyielding.begin(), cluster.unyielding.end(), by_name);
-      std::vector<Participant> yielding;
-      std::vector<Participant> passing;
+      std::vector<encounter::Participant> yielding;
+      std::vector<encounter::Participant> passing;
       for (const std::size_t i : cluster.yielding)
         yielding.push_back(participant(before, parts, i));
       for (const std::size_t i : cluster.unyielding)
         passing.push_back(participant(before, parts, i));
-      Meeting meeting = meet(yielding, passing, environment, from, to);
+      encounter::Meeting meeting = encounter::meet(yielding, passing, environment, from, to);
       if (!meeting.resolved) ++missed;
       if (!meeting.touched) continue;
       if (told != nullptr) {
         const auto object = [&](std::size_t box) {
           return object_of(static_cast<std::size_t>(parts.boxes[box].owner), parts.part[box]);
         };
-        for (const Hit& hit : meeting.hits) {
+        for (const encounter::Hit& hit : meeting.hits) {
           WorldEvent event{hit.time, hit.kind,
                            object(cluster.yielding[static_cast<std::size_t>(hit.one)])};
           const auto other = static_cast<std::size_t>(std::max(hit.other, 0));

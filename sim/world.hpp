@@ -84,9 +84,8 @@ struct Displacement {
 ///
 /// Each target is integrated in double precision to fourth order, bounces on ground and walls
 /// included; Box2D finds who is near whom, and these move from one impact to the next, see
-/// encounter.hpp. The truth of a target depends
-/// on the scene's seed, its surroundings and what it touches: not on the instants at which it is
-/// sampled, nor on targets elsewhere.
+/// encounter/encounter.hpp. The truth of a target depends on the scene's seed, its surroundings and
+/// what it touches: not on the instants at which it is sampled, nor on targets elsewhere.
 class World {
  public:
   /// Blocks of copies are spelled out, nameless targets get names.

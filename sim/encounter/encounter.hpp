@@ -1,21 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
-#include "sim/environment.hpp"
-#include "sim/mover.hpp"
+#include "sim/encounter/crowd.hpp"
 
-namespace ghtrack {
-
-/// A part of a target that may meet others during a step.
-struct Participant {
-  const Mover* mover = nullptr;
-  Mover::State state;  // of its target at the beginning of the step
-  int part = 0;
-  int owner = 0;     // index of its target: parts of one do not meet
-  int carrier = -1;  // nor do a body and the target that let go of it
-};
+namespace ghtrack::encounter {
 
 /// Two things that have met, and how.
 struct Hit {
@@ -52,4 +41,4 @@ struct Meeting {
 Meeting meet(const std::vector<Participant>& yielding, const std::vector<Participant>& passing,
              const Environment& environment, double from, double to);
 
-}  // namespace ghtrack
+}  // namespace ghtrack::encounter
