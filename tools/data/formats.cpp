@@ -36,7 +36,7 @@ class Rows {
 
  private:
   std::string text_ = std::string(kHeader);
-  std::size_t line_ = 2;  // the next one
+  std::size_t line_ = 1;  // the next one; the header is not counted
   bool is_empty_ = true;
 };
 
@@ -199,27 +199,24 @@ std::string base_station_as_csv(const std::string& path) {
   constexpr std::size_t kFields = 22, kAddress = 4, kDate = 6, kTime = 7, kLatitude = 14,
                         kLongitude = 15;
   TextInput lines(path);
-  Findings findings(path);
-  std::string csv(kHeader);
+  Rows rows;
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;
-  for (auto line = lines.next(); line && !findings.enough(); line = lines.next()) {
+  for (auto line = lines.next(); line; line = lines.next()) {
     if (!line->starts_with("MSG,")) continue;
+    const auto number = static_cast<std::size_t>(lines.line_number());
     split_fields(*line, fields, owned);
-    if (fields.size() != kFields) {
-      findings.add(lines.line_number(), fmt::format("{} fields; a message of BaseStation has {}",
-                                                    fields.size(), kFields));
-      continue;
+    if (fields.size() != kFields) {  // a row that is none, for the reader of tables to say so
+      rows.add(number, fmt::format("a message with {} of {} fields,,,\n", fields.size(), kFields));
+    } else if (!fields[kLatitude].empty() && !fields[kLongitude].empty()) {
+      rows.add(number, fmt::format("{} {},{},{},{}\n", fields[kDate], fields[kTime],
+                                   fields[kLatitude], fields[kLongitude], fields[kAddress]));
     }
-    if (fields[kLatitude].empty() || fields[kLongitude].empty()) continue;
-    csv += fmt::format("{} {},{},{},{}\n", fields[kDate], fields[kTime], fields[kLatitude],
-                       fields[kLongitude], fields[kAddress]);
   }
-  findings.throw_if_any();
-  if (csv.size() == kHeader.size()) {
+  if (rows.is_empty()) {
     throw InputError(path + ": error: none of the messages of BaseStation has a position");
   }
-  return csv;
+  return rows.take();
 }
 
 }  // namespace

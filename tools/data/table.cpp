@@ -108,7 +108,7 @@ std::vector<Heading> headings_below(const std::vector<std::string>& above,
 }
 
 TextInput open_input(const std::string& path, const std::function<void()>& pause) {
-  if (auto text = points_as_csv(path)) return TextInput(path, *std::move(text));
+  if (auto text = points_as_csv(path)) return TextInput(path, *std::move(text), -1);
   return TextInput(path, pause);
 }
 
@@ -423,10 +423,8 @@ void Table::throw_findings() const {
 
 void Table::rewind() {
   input_.rewind();
-  for (std::int64_t skipped = 0, last = sample_.empty() ? 0 : sample_.back().number; skipped < last;
-       ++skipped) {
-    input_.next();
-  }
+  const std::int64_t last = sample_.empty() ? input_.line_number() : sample_.back().number;
+  while (input_.line_number() < last) input_.next();
   at_ = first_row_;
   findings_ = Findings(input_.name());
   rejected_ = 0;

@@ -53,8 +53,13 @@ TextInput::TextInput(std::string path, std::function<void()> pause)
   buffer_.resize(kBlock);
 }
 
-TextInput::TextInput(std::string name, std::string text)
-    : name_(std::move(name)), can_rewind_(true), buffer_(std::move(text)), end_(buffer_.size()) {
+TextInput::TextInput(std::string name, std::string text, std::int64_t lines_before)
+    : name_(std::move(name)),
+      can_rewind_(true),
+      buffer_(std::move(text)),
+      end_(buffer_.size()),
+      lines_before_(lines_before),
+      line_number_(lines_before) {
   is_plain_ = all_plain(buffer_.data(), end_);
   at_end_ = true;
 }
@@ -90,7 +95,7 @@ std::optional<std::string_view> TextInput::next() {
 
 void TextInput::rewind() {
   begin_ = 0;
-  line_number_ = 0;
+  line_number_ = lines_before_;
   if (descriptor_ < 0) return;  // all of it is in the buffer
   ::lseek(descriptor_, 0, SEEK_SET);
   end_ = 0;

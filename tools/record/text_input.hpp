@@ -19,7 +19,8 @@ class TextInput {
   explicit TextInput(std::string path, std::function<void()> pause = {});
 
   /// Reads a text in memory.
-  TextInput(std::string name, std::string text);
+  /// @param lines_before  added to the numbers of lines; −1: the first is not counted
+  TextInput(std::string name, std::string text, std::int64_t lines_before = 0);
   ~TextInput();
   TextInput(const TextInput&) = delete;
   TextInput& operator=(const TextInput&) = delete;
@@ -58,6 +59,7 @@ class TextInput {
   bool at_end_ = false;
   char line_end_ = '\n';
   bool is_plain_ = true;  // all bytes in the buffer are printable ASCII, tabs or line ends
+  std::int64_t lines_before_ = 0;
   std::int64_t line_number_ = 0;
 };
 
