@@ -33,9 +33,9 @@ struct SeriesTrack {
   std::vector<SeriesRow> rows;
   std::vector<SeriesBelief> beliefs;  // of a histogram filter, as many
   std::optional<double> rmse;         // √ mean (x − truth)², over all rows
-  std::optional<double>
-      rmse_without_guess;  // the same without a first row that is the guess itself
-  double mai = 0.0;        // mean |z − x_pred| over the measurements used
+  // The same without a first row that is the guess itself.
+  std::optional<double> rmse_without_guess;
+  double mai = 0.0;  // mean |z − x_pred| over the measurements used
 };
 
 /// A measurement before any filter has seen it.
