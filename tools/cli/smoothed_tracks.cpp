@@ -1,5 +1,6 @@
 #include "tools/cli/smoothed_tracks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,8 +17,8 @@ void write_smoothed_tracks(const std::filesystem::path& path,
     if (more.append) more.append(row, track);
     const auto& [state, covariance] = *next++;
     row << state.position.x() << state.position.y() << state.velocity.x() << state.velocity.y()
-        << state.acceleration.x() << state.acceleration.y() << std::sqrt(covariance(0, 0))
-        << std::sqrt(covariance(1, 1));
+        << state.acceleration.x() << state.acceleration.y()
+        << std::sqrt(std::max(0.0, covariance(0, 0))) << std::sqrt(std::max(0.0, covariance(1, 1)));
   };
   TrackWriter writer(path, std::move(columns));
   for (const SmoothedSnapshot& now : history) {

@@ -305,10 +305,10 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   TrackerState state;
   const auto track_all = [&](const auto& on_scan) {
     times.of(StageTimes::kTrack, [&] {
-      const auto on_tracked = [&](const TrackSnapshot& now) {
+      const auto on_tracked = [&](const TrackSnapshot& now, const Scan& scan) {
         times.count_scans(1);
         watch.add(now);
-        on_scan(now);
+        on_scan(now, scan);
       };
       if (learns && options.online) {
         std::optional<LearnedConfig> last;
@@ -326,7 +326,7 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   };
   if (geographic) {
     GeoTracks tracks(*summary.origin);
-    track_all([&](const TrackSnapshot& now) {
+    track_all([&](const TrackSnapshot& now, const Scan&) {
       tracks.add(now);
       if (filmed) film.add(now);
     });
@@ -337,16 +337,8 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
     if (options.plots) columns = joined(std::move(columns), innovation_columns());
     const fs::path file = output_file(options.output, "tracks.csv");
     if (options.smooth) {
-      Scan latest;
-      scans.next = [next = scans.next, &latest](Scan& scan) {
-        const bool has_more = next(scan);
-        if (has_more) latest = scan;
-        return has_more;
-      };
       TrackHistory history(design_of(config, scans));
-      track_all([&](const TrackSnapshot& now) {
-        history.add(now, now.time == latest.time ? latest : Scan{});
-      });
+      track_all([&](const TrackSnapshot& now, const Scan& scan) { history.add(now, scan); });
       times.of(StageTimes::kWrite, [&] {
         const std::vector<SmoothedSnapshot> smoothed = history.smoothed();
         write_smoothed_tracks(file, smoothed, std::move(columns));
@@ -356,7 +348,7 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
       });
     } else {
       TrackWriter writer(file, std::move(columns));
-      track_all([&](const TrackSnapshot& now) {
+      track_all([&](const TrackSnapshot& now, const Scan&) {
         writer.add(now);
         if (filmed) film.add(now);
       });

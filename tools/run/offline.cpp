@@ -90,8 +90,7 @@ void MissingScans::fill(const Scan& scan, const std::function<bool(const Scan&)>
 }
 
 TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
-                           const std::function<void(const TrackSnapshot&)>& on_scan,
-                           StepTimes* times) {
+                           const OnTracked& on_scan, StepTimes* times) {
   std::vector<SensorTraits> traits;
   std::vector<double> areas;
   std::vector<Eigen::Matrix2d> covariance;
@@ -106,7 +105,7 @@ TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
   TrackerState state;
   const auto process = [&](const Scan& scan) {
     state = step(design, std::move(state), scan, times);
-    on_scan(snapshot(state));
+    on_scan(snapshot(state), scan);
   };
   const auto process_missing = [&](const Scan& scan) {
     if (state.tracks.empty()) return false;
@@ -125,8 +124,7 @@ TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
 }
 
 TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> scans,
-                           const std::function<void(const TrackSnapshot&)>& on_scan,
-                           StepTimes* times) {
+                           const OnTracked& on_scan, StepTimes* times) {
   ScanSource source{.next = {}, .period = median_period(scans)};
   for (const Scan& scan : scans) {
     const auto sensor = static_cast<std::size_t>(scan.sensor);

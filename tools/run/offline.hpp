@@ -152,20 +152,22 @@ class MissingScans {
   std::vector<Sensor> sensors_;
 };
 
+/// Gets the tracks after a scan, and the scan as the tracker took it: with errors that its file may
+/// not say.
+using OnTracked = std::function<void(const TrackSnapshot&, const Scan&)>;
+
 /// Tracks recorded scans. A detection whose covariance is zero, which is unknown, has the noise
 /// that the configuration says. Instants without a detection are no rows of a file: where scans are
 /// missing, empty ones take their place until no track is left that could miss anything, so that
 /// the length of a gap costs nothing.
-/// @param on_scan   gets the tracks after each scan, the empty ones included
+/// @param on_scan   is told of each scan, the empty ones included
 /// @param times     where to add the time of the tracker's stages
 /// @return the tracker's state at the end, with the counts of what was refused
 TrackerState track_offline(const OfflineConfig& config, const ScanSource& scans,
-                           const std::function<void(const TrackSnapshot&)>& on_scan,
-                           StepTimes* times = nullptr);
+                           const OnTracked& on_scan, StepTimes* times = nullptr);
 
 /// The same of scans in memory, by time.
 TrackerState track_offline(const OfflineConfig& config, std::span<const Scan> scans,
-                           const std::function<void(const TrackSnapshot&)>& on_scan,
-                           StepTimes* times = nullptr);
+                           const OnTracked& on_scan, StepTimes* times = nullptr);
 
 }  // namespace ghtrack

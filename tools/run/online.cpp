@@ -34,7 +34,7 @@ class Tracking {
     missing_.fill(scan, [&](const Scan& empty) {
       if (state.tracks.empty()) return false;
       state = step(design_, std::move(state), empty, times);
-      on_scan(state);
+      on_scan(state, empty);
       return true;
     });
     for (Detection& detection : scan.detections) {
@@ -42,7 +42,7 @@ class Tracking {
       detection.covariance = covariance_[static_cast<std::size_t>(scan.sensor)];
     }
     state = step(design_, std::move(state), scan, times);
-    on_scan(state);
+    on_scan(state, scan);
   }
 
   TrackerState state;
@@ -117,13 +117,15 @@ void keep_ids(const TrackerState& before, TrackerState& now) {
 }  // namespace
 
 TrackerState track_online(const OfflineConfig& config, const ScanSource& scans,
-                          const std::function<void(const TrackSnapshot&)>& on_scan,
+                          const OnTracked& on_scan,
                           const std::function<void(const LearnedConfig&)>& on_learned,
                           StepTimes* times) {
   std::deque<Scan> lately;
   std::optional<Tracking> tracking;
   std::size_t seen = 0, next = kFirst;
-  const auto say = [&](const TrackerState& state) { on_scan(snapshot(state)); };
+  const auto say = [&](const TrackerState& state, const Scan& taken) {
+    on_scan(snapshot(state), taken);
+  };
   for (Scan scan; scans.next(scan);) {
     ++seen;
     lately.push_back(scan);
@@ -131,7 +133,8 @@ TrackerState track_online(const OfflineConfig& config, const ScanSource& scans,
     if (tracking) {
       tracking->process(scan, say, times);
     } else {
-      on_scan({.time = scan.time, .sensor = scan.sensor, .weighs_existence = true, .tracks = {}});
+      on_scan({.time = scan.time, .sensor = scan.sensor, .weighs_existence = true, .tracks = {}},
+              scan);
     }
     if (seen < next) continue;
     next = static_cast<std::size_t>(kMore * static_cast<double>(seen)) + 1;
@@ -148,7 +151,7 @@ TrackerState track_online(const OfflineConfig& config, const ScanSource& scans,
     Tracking renewed(learned.config, scans);
     for (const Scan& one : lately)
       renewed.process(
-          one, [](const TrackerState&) {}, nullptr);
+          one, [](const TrackerState&, const Scan&) {}, nullptr);
     if (tracking) keep_ids(tracking->state, renewed.state);
     tracking.emplace(std::move(renewed));
   }

@@ -10,11 +10,11 @@ namespace ghtrack {
 /// first when there are enough of them, until which nothing is said to be real, then whenever there
 /// are half as many more. What has been seen lately is then tracked again, and tracks keep their
 /// ids.
-/// @param on_scan     gets the tracks after each scan, the missing ones included
+/// @param on_scan     is told of each scan, the missing ones included
 /// @param on_learned  gets what was learned, each time
 /// @return the tracker's state at the end
 TrackerState track_online(const OfflineConfig& config, const ScanSource& scans,
-                          const std::function<void(const TrackSnapshot&)>& on_scan,
+                          const OnTracked& on_scan,
                           const std::function<void(const LearnedConfig&)>& on_learned,
                           StepTimes* times = nullptr);
 

@@ -16,7 +16,6 @@ void TrackHistory::add(const TrackSnapshot& now, const Scan& scan) {
     OneTrack& own = tracks_[track.id];
     TimedPosition moment;
     moment.time = now.time;
-    moment.covariance *= sigma_ * sigma_;
     if (track.residual) {
       moment.position = track.prior_position + *track.residual;
     } else if (own.moments.empty()) {
@@ -24,6 +23,8 @@ void TrackHistory::add(const TrackSnapshot& now, const Scan& scan) {
     }
     if (track.detection && *track.detection < scan.detections.size()) {
       moment.covariance = scan.detections[*track.detection].covariance;
+    } else {
+      moment.covariance *= sigma_ * sigma_;
     }
     own.moments.push_back(moment);
     own.rows.emplace_back(snapshots_.size(), i);

@@ -112,7 +112,9 @@ void drop_held(std::vector<Pair>& pairs) {
   constexpr double kRounding = 1e-18;  // of the greatest squared residual
   double most = 0.0;
   for (const Pair& pair : pairs) most = std::max(most, pair.squared_residual);
-  std::erase_if(pairs, [&](const Pair& pair) { return pair.squared_residual <= kRounding * most; });
+  std::erase_if(pairs, [&](const Pair& pair) {
+    return pair.speed == 0.0 && pair.squared_residual <= kRounding * most;
+  });
 }
 
 /// The greatest number that all of these are multiples of, by Euclid's algorithm; 0 if that is

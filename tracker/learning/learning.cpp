@@ -319,7 +319,9 @@ class Learner {
         continue;
       }
       const double sigma = typical_sigma(p, s);
-      const double all = (seen_[s] + Eigen::Vector2d::Constant(6.0 * sigma)).prod();
+      // What moves along a line has seen more than the line.
+      const Eigen::Vector2d sides = seen_[s].cwiseMax(0.1 * seen_[s].maxCoeff());
+      const double all = (sides + Eigen::Vector2d::Constant(6.0 * sigma)).prod();
       const double least = std::min(all, 2.0 * std::numbers::pi * sigma * sigma);
       const auto spread = paths.empty() ? std::nullopt : spread_of(unexplained[s]);
       result.push_back(std::clamp(spread.value_or(all), least, all));

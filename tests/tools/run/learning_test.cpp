@@ -24,7 +24,7 @@ std::vector<Scan> scaled(std::vector<Scan> scans, double length, double time) {
 
 std::vector<TrackEstimate> tracked(const OfflineConfig& config, const std::vector<Scan>& scans) {
   std::vector<TrackEstimate> tracks;
-  track_offline(config, recorded(scans), [&](const TrackSnapshot& now) {
+  track_offline(config, recorded(scans), [&](const TrackSnapshot& now, const Scan&) {
     tracks.insert(tracks.end(), now.tracks.begin(), now.tracks.end());
   });
   return tracks;

@@ -51,7 +51,7 @@ ScoreResult score_of(const char* name, const OfflineConfig& config) {
   const std::string stem = std::string(GHTRACK_SOURCE_DIR) + "/tests/reference/tracking/" + name;
   const DetectionTable detections = read_detections_csv(stem + "_detections.csv");
   std::vector<IdentifiedPoint> tracks;
-  track_offline(config, detections.scans, [&](const TrackSnapshot& snapshot) {
+  track_offline(config, detections.scans, [&](const TrackSnapshot& snapshot, const Scan&) {
     for (const TrackEstimate& track : snapshot.tracks) {
       if (track.status == TrackStatus::kTentative) continue;
       tracks.push_back({.time = snapshot.time, .id = track.id, .position = track.position});
@@ -101,7 +101,7 @@ Scan scan_at(double time, double x) {
 TEST(Offline, AGapIsCrossedInAFewEmptyScans) {
   int snapshots = 0;
   const std::vector<Scan> scans = {scan_at(1, 0), scan_at(2, 1), scan_at(3, 2), scan_at(2e9, 3)};
-  track_offline({}, scans, [&](const TrackSnapshot&) { ++snapshots; });
+  track_offline({}, scans, [&](const TrackSnapshot&, const Scan&) { ++snapshots; });
   EXPECT_LT(snapshots, 20);
 }
 
@@ -109,7 +109,8 @@ TEST(Offline, AGapIsCrossedInAFewEmptyScans) {
 TEST(Offline, MissingScansCountAsMisses) {
   std::vector<TrackSnapshot> snapshots;
   const std::vector<Scan> scans = {scan_at(0, 0), scan_at(1, 1), scan_at(2, 2), scan_at(5, 5)};
-  track_offline({}, scans, [&](const TrackSnapshot& snapshot) { snapshots.push_back(snapshot); });
+  track_offline({}, scans,
+                [&](const TrackSnapshot& snapshot, const Scan&) { snapshots.push_back(snapshot); });
   ASSERT_EQ(snapshots.size(), 6U);
   EXPECT_EQ(snapshots[3].tracks.at(0).status, TrackStatus::kCoasting);
   EXPECT_EQ(snapshots[5].tracks.at(0).status, TrackStatus::kConfirmed);

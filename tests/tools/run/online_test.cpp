@@ -26,7 +26,8 @@ struct Followed {
 Followed followed(const std::vector<Scan>& scans, const OfflineConfig& config = {}) {
   Followed result;
   result.state = track_online(
-      config, recorded(scans), [&](const TrackSnapshot& now) { result.snapshots.push_back(now); },
+      config, recorded(scans),
+      [&](const TrackSnapshot& now, const Scan&) { result.snapshots.push_back(now); },
       [&](const LearnedConfig& now) { result.learned.push_back(now); });
   return result;
 }
@@ -59,8 +60,8 @@ TEST(Online, EndsAsATrackerThatWasToldSo) {
     const std::vector<Scan> scans = LearningScene{}.record(6);
     const Followed online = followed(scans, with(association));
     ASSERT_FALSE(online.learned.empty());
-    const TrackerState told =
-        track_offline(online.learned.back().config, recorded(scans), [](const TrackSnapshot&) {});
+    const TrackerState told = track_offline(online.learned.back().config, recorded(scans),
+                                            [](const TrackSnapshot&, const Scan&) {});
     ASSERT_EQ(online.state.tracks.size(), told.tracks.size());
     for (std::size_t i = 0; i < told.tracks.size(); ++i) {
       EXPECT_EQ(estimate(online.state.tracks[i].filter).position,

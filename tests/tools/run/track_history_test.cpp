@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "scenes/schema/reader.hpp"
+#include "sim/random.hpp"
 #include "tests/tools/run/listener.hpp"
+#include "tools/run/offline.hpp"
 #include "tools/run/run.hpp"
 
 namespace ghtrack {
@@ -95,6 +97,45 @@ TEST(TrackHistory, TheLastRowOfATrackIsTheFiltersOwn) {
     const TrackEstimate& track = last.tracks.tracks[i];
     EXPECT_NEAR((last.smoothed[i].state.position - track.position).norm(), 0.0, 1e-9);
     EXPECT_NEAR((last.smoothed[i].state.velocity - track.velocity).norm(), 0.0, 1e-9);
+  }
+}
+
+// Property: a file that does not say how large its errors are is smoothed as well as one that does.
+TEST(TrackHistory, SmoothsWhatComesWithoutErrors) {
+  constexpr double kNoise = 0.3;
+  OfflineConfig config;
+  config.noise = kNoise;
+  config.tracker.filters["default"] = KalmanCvConfig{.initial_speed = 3.0};
+  for (const Eigen::Matrix2d& said :
+       {Eigen::Matrix2d(Eigen::Matrix2d::Zero()),
+        Eigen::Matrix2d(kNoise * kNoise * Eigen::Matrix2d::Identity())}) {
+    std::vector<Scan> scans;
+    for (int k = 0; k < 100; ++k) {
+      Stream noise(7, Purpose::kMeasurementNoise, key_of("afterwards"),
+                   static_cast<std::uint64_t>(k));
+      Eigen::Vector2d off;
+      off.x() = noise.normal();
+      off.y() = noise.normal();
+      const Eigen::Vector2d there(0.2 * k, 5.0 + 0.1 * k);
+      scans.push_back(
+          {.time = 0.1 * k,
+           .sensor = 0,
+           .detections = {{.position = there + kNoise * off, .covariance = said, .label = {}}}});
+    }
+    TrackHistory history(
+        TrackerDesign(config.tracker, {traits_of(config, 0.1)}, {area_of(config)}));
+    track_offline(config, scans,
+                  [&](const TrackSnapshot& now, const Scan& scan) { history.add(now, scan); });
+    double causal = 0.0, smoothed = 0.0;
+    for (const SmoothedSnapshot& now : history.smoothed()) {
+      if (now.tracks.tracks.empty()) continue;
+      const double t = now.tracks.time;
+      const Eigen::Vector2d truth(2.0 * t, 5.0 + t);
+      causal += (now.tracks.tracks[0].position - truth).squaredNorm();
+      smoothed += (now.smoothed[0].state.position - truth).squaredNorm();
+      EXPECT_GT(now.smoothed[0].covariance.diagonal().minCoeff(), 0.0);
+    }
+    EXPECT_LT(smoothed, 0.6 * causal);
   }
 }
 
