@@ -142,6 +142,7 @@ struct FilmOptions {
   std::optional<double> start;          // time of the data at the first picture [s]
   // What the data say of their pictures:
   std::optional<double> frame_rate;  // [Hz]
+  bool counts_frames = false;        // their times are numbers of frames at this rate
   std::optional<int> width, height;  // [px]
 };
 

@@ -49,6 +49,23 @@ std::array<GroundPoint, 4> parse_ground_points(const std::vector<std::string>& t
   return points;
 }
 
+namespace {
+
+/// Whether three of four points, of the ground or of the picture, span no triangle.
+bool has_three_on_a_line(const std::array<GroundPoint, 4>& points,
+                         Eigen::Vector2d GroundPoint::*side) {
+  constexpr double kFlat = 1e-9;  // of the product of two sides
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    const Eigen::Vector2d& corner = points[(left_out + 1) % 4].*side;
+    const Eigen::Vector2d a = points[(left_out + 2) % 4].*side - corner;
+    const Eigen::Vector2d b = points[(left_out + 3) % 4].*side - corner;
+    if (!(std::abs(a.x() * b.y() - a.y() * b.x()) > kFlat * a.norm() * b.norm())) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 Eigen::Matrix3d homography(const std::array<GroundPoint, 4>& points) {
   // Eight equations u (h₃ · p) = h₁ · p, v (h₃ · p) = h₂ · p for the entries but the last, which is
   // 1; about the first point and in units of the distances, so that no entry is lost to rounding.
@@ -65,10 +82,13 @@ Eigen::Matrix3d homography(const std::array<GroundPoint, 4>& points) {
     equations.row(2 * i + 1) << 0, 0, 0, p.x(), p.y(), 1, -pixel.y() * p.x(), -pixel.y() * p.y();
     values.segment<2>(2 * i) = pixel;
   }
-  const Eigen::FullPivLU<Eigen::Matrix<double, 8, 8>> solver(equations);
-  if (solver.rcond() < 1e-12) {
-    throw UsageError("--homography: three of the four points are on a line, which leaves it open");
+  if (has_three_on_a_line(points, &GroundPoint::ground)) {
+    throw UsageError("--homography: three of the four places are on a line, which leaves it open");
   }
+  if (has_three_on_a_line(points, &GroundPoint::pixel)) {
+    throw UsageError("--homography: three of the four pixels are on a line, which leaves it open");
+  }
+  const Eigen::FullPivLU<Eigen::Matrix<double, 8, 8>> solver(equations);
   const Eigen::Matrix<double, 8, 1> h = solver.solve(values);
   Eigen::Matrix3d scaled;
   scaled << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1.0;

@@ -182,6 +182,12 @@ ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair
                     "not tell",
                     pair.tracks));
   }
+  if (tracks.are_degrees() && !truth.origin()) {
+    throw InputError(
+        fmt::format("{}: error: the tracks are in degrees, the truth is in metres around an origin "
+                    "that its columns origin_lat and origin_lon do not tell",
+                    pair.truth));
+  }
   tell_what_was_read(truth.understood(), truth.left_out(), truth.remarks(), manners);
   tell_what_was_read(tracks.understood(), tracks.left_out(), tracks.remarks(), manners);
   AtClock sources{.truth = {[&] { return truth.next(); }, truth.period()},

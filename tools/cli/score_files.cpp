@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <system_error>
 
 #include "tools/cli/paths.hpp"
@@ -69,6 +71,26 @@ void add_pairs(const fs::path& truth, const fs::path& tracks, std::vector<ScoreP
   }
 }
 
+/// Adds the names of their tracks to those of pairs that share one, and numbers if that is not
+/// enough.
+void tell_apart(std::vector<ScorePair>& pairs) {
+  const auto shared = [&pairs] {
+    std::map<std::string, int> count;
+    for (const ScorePair& pair : pairs) ++count[pair.name];
+    std::erase_if(count, [](const auto& name) { return name.second == 1; });
+    return count;
+  };
+  const auto of_one_name = shared();
+  for (ScorePair& pair : pairs) {
+    if (of_one_name.contains(pair.name)) pair.name += "/" + fs::path(pair.tracks).stem().string();
+  }
+  std::map<std::string, int> numbers;
+  const auto still = shared();
+  for (ScorePair& pair : pairs) {
+    if (still.contains(pair.name)) pair.name += fmt::format(" {}", ++numbers[pair.name]);
+  }
+}
+
 }  // namespace
 
 std::vector<ScorePair> pairs_to_score(const ScoreOptions& options) {
@@ -81,6 +103,7 @@ std::vector<ScorePair> pairs_to_score(const ScoreOptions& options) {
   for (std::size_t i = 0; i < options.truth.size(); ++i) {
     add_pairs(options.truth[i], options.tracks[i], pairs);
   }
+  tell_apart(pairs);
   return pairs;
 }
 

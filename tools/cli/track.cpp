@@ -364,6 +364,7 @@ void track_csv(const TrackOptions& options, OfflineConfig config, StageTimes& ti
   if (!filmed) return;
   FilmOptions wanted = options.film;
   if (options.data.frame_rate) wanted.frame_rate = options.data.frame_rate;
+  wanted.counts_frames = options.data.frame_rate.has_value();
   film.write(wanted, summary.period, summary.origin, manners);
 }
 

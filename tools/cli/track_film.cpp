@@ -155,7 +155,11 @@ TrackFilm::Pace TrackFilm::pace(const FilmOptions& options,
   const double last = tracks_.empty() ? 0.0 : tracks_.back().time;
   if (background.moves) {
     const bool counts_from_start = first >= 0.0 && first < kLongAgo;
-    return {options.start.value_or(counts_from_start ? 0.0 : first), 1.0, last};
+    // Frames that are counted as the pictures are.
+    const double frame = background.first_number.value_or(0.0) / background.fps;
+    const bool counts_frames = options.counts_frames && frame <= first + 0.5 / background.fps;
+    const double start = !counts_from_start ? first : counts_frames ? frame : 0.0;
+    return {options.start.value_or(start), 1.0, last};
   }
   const bool is_slow = period > 0.0 && 1.0 / period < kSlow;
   return {options.start.value_or(first), is_slow ? period * background.fps : 1.0, last};
@@ -286,6 +290,11 @@ void TrackFilm::write(const FilmOptions& options, double period,
   tell("ghtrack: {}: {} pictures of {}x{} at {:.4g} Hz{}", options.output, pictures,
        background.width, background.height, background.fps,
        pace.speed == 1.0 ? std::string() : fmt::format(", {:.4g} times as fast", pace.speed));
+  if (background.missing > 0) {
+    tell(
+        "ghtrack: warning: {} of the numbered pictures {} missing; the one before is shown instead",
+        background.missing, background.missing == 1 ? "is" : "are");
+  }
   if (drawn == 0 && !tracks_.empty()) {
     tell(
         "ghtrack: warning: no picture shows a track: the tracks are there from {:.6g} to {:.6g} s, "

@@ -118,6 +118,14 @@ std::optional<int> take_month(Cursor& cursor) {
   return std::nullopt;
 }
 
+/// A year of four digits, or of two.
+std::optional<int> take_year(Cursor& cursor) {
+  if (const auto year = cursor.digits(4)) return year;
+  const auto year = cursor.digits(2);
+  if (!year) return std::nullopt;
+  return *year + (*year < 70 ? 2000 : 1900);
+}
+
 /// 2024-06-11, 2024/06/11, 2024.06.11 or 20240611.
 std::optional<std::int64_t> take_year_first(Cursor& cursor) {
   const auto year = cursor.digits(4);
@@ -146,7 +154,7 @@ std::optional<std::int64_t> take_year_last(Cursor& cursor, DateOrder order) {
   const bool needs_name = joint == '-' || joint == ' ';
   const auto second = named || needs_name ? named : cursor.one_or_two_digits();
   if (!second || !cursor.take(joint)) return std::nullopt;
-  const auto year = cursor.digits(4);
+  const auto year = take_year(cursor);
   if (!year) return std::nullopt;
   const bool month_first = order == DateOrder::kMonthFirst && joint == '/' && !named;
   return month_first ? checked_days(*year, *first, *second) : checked_days(*year, *second, *first);
@@ -224,20 +232,56 @@ std::optional<double> take_zone(Cursor& cursor) {
   return behind ? -ahead : ahead;
 }
 
+/// The days of "1 days 00:00:01.5", as pandas writes times that have passed; 0 without any.
+double take_days(Cursor& cursor) {
+  Cursor ahead = cursor;
+  double days = 0.0;
+  for (auto digit = ahead.digits(1); digit; digit = ahead.digits(1)) days = 10.0 * days + *digit;
+  if (!ahead.take(" day")) return 0.0;
+  ahead.take('s');
+  if (!ahead.take(' ')) return 0.0;
+  cursor = ahead;
+  return days;
+}
+
 }  // namespace
 
 std::optional<std::int64_t> parse_date(std::string_view text, DateOrder order) {
   Cursor cursor(text);
+  if (text.size() == 6) {
+    std::array<std::optional<int>, 3> parts;
+    for (auto& part : parts) part = cursor.digits(2);
+    if (parts[2]) {
+      const std::size_t year = order == DateOrder::kYearFirst ? 0 : 2;
+      const std::size_t month = order == DateOrder::kMonthFirst ? 0 : 1;
+      const int full = *parts[year] + (*parts[year] < 70 ? 2000 : 1900);
+      return checked_days(full, *parts[month], *parts[3 - year - month]);
+    }
+    cursor = Cursor(text);
+  }
   const auto days = take_date(cursor, order);
   return cursor.at_end() ? days : std::nullopt;
 }
 
 std::optional<double> parse_time_of_day(std::string_view text) {
   Cursor cursor(text);
+  const double days = take_days(cursor);
   const auto seconds = take_time(cursor);
   const auto zone = seconds ? take_zone(cursor) : std::nullopt;
   if (!zone || !cursor.at_end() || text.find(':') == std::string_view::npos) return std::nullopt;
-  return *seconds - *zone;
+  return days * kDay + *seconds - *zone;
+}
+
+std::optional<double> parse_compact_time(std::string_view text) {
+  const std::size_t point = std::min(text.find('.'), text.size());
+  if (point == 0 || point > 6) return std::nullopt;
+  const std::string padded = std::string(6 - point, '0') + std::string(text);
+  Cursor cursor(padded);
+  const auto hour = cursor.digits(2), minute = cursor.digits(2), second = cursor.digits(2);
+  const auto fraction = second ? cursor.fraction() : std::nullopt;
+  if (!hour || !minute || !fraction || !cursor.at_end()) return std::nullopt;
+  if (*hour > 23 || *minute > 59 || *second > 60) return std::nullopt;
+  return *hour * 3600.0 + *minute * 60.0 + *second + *fraction;
 }
 
 namespace {
@@ -323,6 +367,13 @@ const DayCount* day_count(double number) {
   return found == kDayCounts.end() ? nullptr : &*found;
 }
 
+/// "1.5 sec" as a heading: the number, and the unit after it.
+Heading number_and_unit(std::string_view text) {
+  const std::size_t joint = text.rfind(' ');
+  if (joint == std::string_view::npos) return {};
+  return parse_heading(fmt::format("{} ({})", text.substr(0, joint), text.substr(joint + 1)));
+}
+
 /// 20240611093015, or 20240611 in a column of dates.
 bool is_compact_date(std::string_view text, bool are_dates) {
   const bool has_digits = text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -340,7 +391,13 @@ bool is_date_or_day(std::string_view text, char point) {
 }
 
 Clock::Clock(const TimeFormat& format, std::string_view first) : point_(format.point) {
-  const std::optional<double> number = parse_number(first, point_);
+  std::optional<double> number = parse_number(first, point_);
+  std::optional<Unit> unit = format.unit;
+  if (const Heading told = number_and_unit(first); !number && told.unit && told.unit->is_time) {
+    unit = told.unit;
+    suffix_ = first.substr(first.rfind(' '));
+    number = parse_number(first.substr(0, first.rfind(' ')), point_);
+  }
   const bool is_free = !format.unit && !format.frame_rate;
   const bool is_compact = is_free && is_compact_date(first, format.are_dates);
   if (!number && parse_time_of_day(first)) {
@@ -355,12 +412,15 @@ Clock::Clock(const TimeFormat& format, std::string_view first) : point_(format.p
                : first.find('/') == std::string_view::npos ? "dates, as s since 1970"
                : order_ == DateOrder::kDayFirst            ? "day/month/year, as s since 1970"
                                                            : "month/day/year, as s since 1970";
+  } else if (is_free && format.has_date && parse_compact_time(first)) {
+    kind_ = Kind::kCompactTime;
+    meaning_ = "time of day as hhmmss";
   } else if (format.frame_rate) {
     scale_ = Scale::of_parts(*format.frame_rate);
     meaning_ = fmt::format("frames at {:g} Hz", *format.frame_rate);
-  } else if (format.unit && format.unit->is_time) {
-    meaning_ = format.unit->name;
-    scale_ = Scale(format.unit->scale);
+  } else if (unit && unit->is_time) {
+    meaning_ = unit->name;
+    scale_ = Scale(unit->scale);
   } else if (const DayCount* days = number ? day_count(*number) : nullptr;
              days != nullptr && format.are_dates) {
     meaning_ = days->meaning;
@@ -385,16 +445,19 @@ Clock::Clock(const TimeFormat& format, std::string_view first) : point_(format.p
 std::optional<double> Clock::seconds(std::string_view time) const {
   if (kind_ == Kind::kDateTime) return parse_date_time(time, order_);
   if (kind_ == Kind::kTimeOfDay) return parse_time_of_day(time);
+  if (kind_ == Kind::kCompactTime) return parse_compact_time(time);
+  if (time.ends_with(suffix_)) time.remove_suffix(suffix_.size());
   const std::optional<double> number = parse_number(time, point_);
   if (!number) return std::nullopt;
   return scale_(*number - epoch_);
 }
 
 std::string_view Clock::expectation() const {
-  return kind_ == Kind::kDateTime    ? "a date and time such as 2024-06-11T09:30:15Z"
-         : kind_ == Kind::kTimeOfDay ? "a time of day such as 09:30:15"
-         : is_unreadable_            ? "a number, or a date and time such as 2024-06-11T09:30:15Z"
-                                     : "a finite number";
+  return kind_ == Kind::kDateTime      ? "a date and time such as 2024-06-11T09:30:15Z"
+         : kind_ == Kind::kTimeOfDay   ? "a time of day such as 09:30:15"
+         : kind_ == Kind::kCompactTime ? "a time of day such as 093015"
+         : is_unreadable_              ? "a number, or a date and time such as 2024-06-11T09:30:15Z"
+                                       : "a finite number";
 }
 
 }  // namespace ghtrack

@@ -11,8 +11,8 @@ namespace ghtrack {
 
 constexpr double kDay = 86400.0;  // [s]
 
-/// What stands first in a date whose year stands last, such as 3/4/2024.
-enum class DateOrder { kDayFirst, kMonthFirst };
+/// What stands first in a date whose year stands last, such as 3/4/2024, or in one of six digits.
+enum class DateOrder { kDayFirst, kMonthFirst, kYearFirst };
 
 /// Seconds since 1970-01-01T00:00:00 UTC of a date and time after ISO 8601:
 /// `2024-06-11T09:30:15.25+02:00`. T may be a blank, dashes may be slashes, points or missing in
@@ -27,7 +27,12 @@ std::optional<double> parse_date_time(std::string_view text,
 /// on a stopwatch. Absent if the text is anything else.
 std::optional<double> parse_time_of_day(std::string_view text);
 
-/// Days since 1970-01-01 of a date in one of the forms above. Absent if the text is anything else.
+/// The same of `hhmmss[.fff]`, as loggers of GPS write it; zeros at the front may be missing.
+std::optional<double> parse_compact_time(std::string_view text);
+
+/// Days since 1970-01-01 of a date in one of the forms above, or of six digits: `110624`, or
+/// `240611` with the year first. Absent if the text is anything else. Years of two digits are from
+/// 1970 to 2069.
 std::optional<std::int64_t> parse_date(std::string_view text,
                                        DateOrder order = DateOrder::kDayFirst);
 
@@ -42,6 +47,7 @@ struct TimeFormat {
   std::optional<Unit> unit = std::nullopt;          // if the heading has one
   std::optional<double> frame_rate = std::nullopt;  // of a column of frame numbers [Hz]
   bool are_dates = false;                           // the heading says so
+  bool has_date = false;                            // the day stands in another column
   char point = '.';                                 // before decimals
 };
 
@@ -55,7 +61,7 @@ class Clock {
   std::optional<double> seconds(std::string_view time) const;
 
   /// Whether times start anew at midnight.
-  bool is_time_of_day() const { return kind_ == Kind::kTimeOfDay; }
+  bool is_time_of_day() const { return kind_ == Kind::kTimeOfDay || kind_ == Kind::kCompactTime; }
 
   /// What a time is, for remarks: "ms", "s since 1970", "ISO 8601".
   const std::string& meaning() const { return meaning_; }
@@ -64,7 +70,7 @@ class Clock {
   std::string_view expectation() const;
 
  private:
-  enum class Kind { kNumber, kDateTime, kTimeOfDay };
+  enum class Kind { kNumber, kDateTime, kTimeOfDay, kCompactTime };
 
   Kind kind_ = Kind::kNumber;
   DateOrder order_ = DateOrder::kDayFirst;
@@ -72,6 +78,7 @@ class Clock {
   double epoch_ = 0.0;          // taken away before scaling
   bool is_unreadable_ = false;  // the first time is none
   char point_ = '.';
+  std::string suffix_;  // a unit after each number
   std::string meaning_;
 };
 

@@ -165,6 +165,11 @@ std::string geojson_as_csv(const std::string& path) {
   try {
     const nlohmann::json json = nlohmann::json::parse(read_text_file(path));
     std::string csv(kHeader);
+    if (!json.is_object() || !(json.contains("features") || json.value("type", "") == "Feature")) {
+      throw InputError(path +
+                       ": error: no GeoJSON: neither a Feature nor a FeatureCollection; other JSON "
+                       "is to be converted to CSV");
+    }
     if (json.value("type", "") == "Feature") {
       append_feature(csv, json, 1);
     } else {

@@ -12,8 +12,9 @@ namespace ghtrack {
 /// Files of points that are no tables: GPX 1.1 tracks (.gpx), GeoJSON (.geojson, .json), and what a
 /// receiver of ADS-B writes in the format of BaseStation, known by its first line.
 ///
-/// @return the same as CSV with the columns time, lat, lon and track_id, each row as many lines below
-/// the header as it was from the top of the file, where that has lines; absent if the file is a table
+/// @return the same as CSV with the columns time, lat, lon and track_id, each row as many lines
+/// below the header as it was from the top of the file, where that has lines; absent if the file is
+/// a table
 /// @throws InputError
 std::optional<std::string> points_as_csv(const std::string& path);
 

@@ -4,14 +4,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tools/data/time_column.hpp"
 
 namespace ghtrack {
 namespace {
 
-// What ships say of their place when they do not know it (ITU-R M.1371).
-constexpr GeoPoint kNowhere{.latitude = 91.0, .longitude = 181.0};
+/// Whether it is what ships say of their place when they do not know it (ITU-R M.1371).
+bool is_nowhere(const GeoPoint& point) {
+  return point.latitude == 91.0 || point.longitude == 181.0;
+}
+
+/// The column after a coordinate that says on which side of the equator, or of Greenwich, it is.
+std::optional<std::size_t> side_of(const Table& table, std::size_t coordinate,
+                                   std::string_view sides) {
+  const std::size_t next = coordinate + 1;
+  if (next >= table.headings().size()) return std::nullopt;
+  const std::string_view first = table.first_cell(next);
+  return first.size() == 1 && sides.find(first) != std::string_view::npos ? std::optional(next)
+                                                                          : std::nullopt;
+}
+
+/// Whether a column holds places: not numbers with a decimal comma, nor what has a unit.
+bool has_places(const Table& table, std::size_t column) {
+  const Heading& heading = table.headings()[column];
+  const std::string_view first = table.first_value(column);
+  return parse_place(first) && !heading.unit && heading.unread.empty() &&
+         !parse_number(first, table.dialect());
+}
+
+bool is_in_radians(const Table& table, std::size_t column) {
+  const auto& unit = table.headings()[column].unit;
+  return unit && unit->name.starts_with("rad");
+}
 
 /// Whether two columns have whole numbers, one of which no degrees could be.
 bool have_parts_of_degrees(const Table& table, std::size_t longitude, std::size_t latitude) {
@@ -45,13 +71,22 @@ std::optional<GeographicColumns> GeographicColumns::find(const Table& table,
   if (columns.has_plane()) return std::nullopt;
   const auto longitude = columns.find(Role::kLongitude), latitude = columns.find(Role::kLatitude);
   if (longitude && latitude) return GeographicColumns(table, *longitude, *latitude, origin);
-  if (!place || !parse_place(table.first_value(*place))) return std::nullopt;
+  if (!place || !has_places(table, *place)) return std::nullopt;
   return GeographicColumns(table, *place, *place, origin);
 }
 
 GeographicColumns::GeographicColumns(const Table& table, std::size_t longitude,
                                      std::size_t latitude, std::optional<GeoPoint> origin)
     : longitude_(longitude), latitude_(latitude), origin_(origin) {
+  if (!in_one_cell()) {
+    south_ = side_of(table, latitude, "NSns");
+    west_ = side_of(table, longitude, "EWew");
+  }
+  if (is_in_radians(table, longitude) && is_in_radians(table, latitude)) {
+    unit_ = "radians";
+    scale_ = Scale(180.0 / std::numbers::pi);
+    return;
+  }
   if (!have_parts_of_degrees(table, longitude, latitude)) return;
   if (is_of_fit(table, longitude) && is_of_fit(table, latitude)) {
     unit_ = "semicircles";
@@ -68,9 +103,7 @@ GeographicColumns::GeographicColumns(const Table& table, std::size_t longitude,
 std::optional<Eigen::Vector2d> GeographicColumns::read(Table& table) {
   const auto point = place(table);
   if (!point) return std::nullopt;
-  if (point->latitude == kNowhere.latitude && point->longitude == kNowhere.longitude) {
-    return std::nullopt;
-  }
+  if (is_nowhere(*point)) return std::nullopt;
   if (!is_on_earth(*point)) {
     table.reject(fmt::format("latitude {} and longitude {} are no point of the earth",
                              point->latitude, point->longitude));
@@ -89,7 +122,18 @@ std::optional<GeoPoint> GeographicColumns::place(Table& table) const {
   }
   const auto longitude = degrees(table, longitude_), latitude = degrees(table, latitude_);
   if (!longitude || !latitude) return std::nullopt;
-  return GeoPoint{.latitude = *latitude, .longitude = *longitude};
+  const auto signed_by = [&](double degrees, const std::optional<std::size_t>& side,
+                             std::string_view negative, const char* expectation) {
+    const std::string_view cell = side ? table.cell(*side) : std::string_view();
+    if (cell.empty()) return degrees;
+    if (cell.size() > 1 || std::string_view("NSEWnsew").find(cell) == std::string_view::npos) {
+      table.reject_cell(*side, expectation);
+    }
+    const bool is_negative = negative.find(cell) != std::string_view::npos;
+    return is_negative ? -std::abs(degrees) : degrees;
+  };
+  return GeoPoint{.latitude = signed_by(*latitude, south_, "Ss", "N or S"),
+                  .longitude = signed_by(*longitude, west_, "Ww", "E or W")};
 }
 
 /// A number; also one with minutes and seconds.
@@ -103,8 +147,8 @@ std::optional<double> GeographicColumns::degrees(Table& table, std::size_t colum
 }
 
 std::string GeographicColumns::describe(const Table& table) const {
-  std::string text = fmt::format("in m from {} in {}{}", unit_, name_of_column(table, longitude_),
-                                 in_one_cell() ? "" : " and " + name_of_column(table, latitude_));
+  std::string text = fmt::format("in m from {} in {}{}", unit_, name_of_quantity(table, longitude_),
+                                 in_one_cell() ? "" : " and " + name_of_quantity(table, latitude_));
   if (origin_) {
     text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin_->latitude,
                         origin_->longitude);

@@ -38,6 +38,7 @@ class GeographicColumns {
   bool in_one_cell() const { return longitude_ == latitude_; }
 
   std::size_t longitude_, latitude_;
+  std::optional<std::size_t> west_, south_;  // columns that say so
   std::string_view unit_ = "degrees";
   Scale scale_;  // to degrees
   std::optional<GeoPoint> origin_;

@@ -43,7 +43,8 @@ constexpr std::array<Alias, 16> kAliases = {{
     {Role::kTime,
      "t time timestamp time_stamp datetime date_time date/time basedatetime base_date_time utc "
      "time_utc utc_time gps_time gpstime unix_time unixtime epoch posixtime time_position elapsed "
-     "elapsed_time seconds sec ts zeit uhrzeit zeitpunkt zeitstempel temps heure horodatage tiempo "
+     "elapsed_time seconds_elapsed elapsed_seconds time_since_start datetime_utc tow gps_tow "
+     "seconds sec ts zeit uhrzeit zeitpunkt zeitstempel temps heure horodatage tiempo "
      "hora tijd t_s"},
     {Role::kDate, "date day datum jour fecha dia"},
     {Role::kFrame,
@@ -60,13 +61,15 @@ constexpr std::array<Alias, 16> kAliases = {{
      "data signal x"},
     {Role::kLatitude,
      "lat latitude lat_deg latitude_deg gps_lat location_lat position_lat gps_latitude latitud "
-     "latitudine breite breitengrad geographische_breite latitude_e7 lat_e7 late7 latitude_e6 "
+     "latitudine breite breitengrad geographische_breite latitude_n/s lat_n/s latitude_e7 lat_e7 "
+     "late7 latitude_e6 "
      "lat_e6 "
      "late6"},
     {Role::kLongitude,
      "lon long lng longitude lon_deg longitude_deg gps_lon gps_long location_long location_lon "
      "position_long gps_longitude longitud longitudine laenge länge längengrad laengengrad "
-     "geographische_länge longitude_e7 lon_e7 lng_e7 lone7 lnge7 longitude_e6 lon_e6 lng_e6 lone6 "
+     "geographische_länge longitude_e/w lon_e/w longitude_e7 lon_e7 lng_e7 lone7 lnge7 "
+     "longitude_e6 lon_e6 lng_e6 lone6 "
      "lnge6"},
     {Role::kPlace,
      "place position location coordinates coords latlng latlon lat_lng lat_lon lat_long lat/lon "
@@ -89,11 +92,11 @@ struct UnitName {
   double scale;
   bool is_time;
 };
-constexpr std::array<UnitName, 19> kUnits = {{
-    {"s sec secs second seconds", 1.0, true},
-    {"ms msec millisecond milliseconds", 1e-3, true},
-    {"us µs μs usec microsecond microseconds", 1e-6, true},
-    {"ns nsec nanosecond nanoseconds", 1e-9, true},
+constexpr std::array<UnitName, 20> kUnits = {{
+    {"s sec secs second seconds sekunde sekunden", 1.0, true},
+    {"ms msec millis millisecond milliseconds", 1e-3, true},
+    {"us µs μs usec micros microsecond microseconds", 1e-6, true},
+    {"ns nsec nanos nanosecond nanoseconds", 1e-9, true},
     {"min minute minutes", 60.0, true},
     {"h hr hrs hour hours", 3600.0, true},
     {"d day days", 86400.0, true},
@@ -109,6 +112,7 @@ constexpr std::array<UnitName, 19> kUnits = {{
     {"nmi", 1852.0, false},
     {"px pixel pixels pix", 1.0, false},
     {"deg ° degree degrees", 1.0, false},
+    {"rad radian radians", 1.0, false},
 }};
 
 std::string_view unquoted(std::string_view text) {
@@ -144,6 +148,11 @@ std::optional<Unit> unit_named(std::string_view text) {
     }
   }
   return std::nullopt;
+}
+
+/// Whether a column that is called like the unit counts time: "millis", but not "h" or "min".
+bool counts_time(const Unit& unit) {
+  return unit.is_time && unit.name.size() > 1 && unit.name != "min";
 }
 
 bool is_alias(std::string_view base) {
@@ -239,6 +248,10 @@ Heading parse_heading(std::string_view cell) {
   const std::string_view text = unquoted(cell);
   Heading heading{.text = std::string(text), .base = base_of(text)};
   if (text.empty() || is_alias(heading.base) || split_unit(text, heading)) return heading;
+  if (auto unit = unit_named(heading.base); unit && counts_time(*unit)) {
+    heading.unit = std::move(unit);
+    return heading;
+  }
   const std::size_t joint = heading.base.rfind('_');  // time_ms, x_mm
   if (joint == std::string::npos || joint == 0) return heading;
   const std::string stem = heading.base.substr(0, joint);
@@ -287,11 +300,11 @@ std::string_view telling_word(std::string_view base) {
       "gyro gyr omega w angular rotation rot orientation quaternion quat q covariance force kraft "
       "mag "
       "gravity grav bias size sigma std error err residual offset start end delta d min max";
-  const std::size_t last = base.find_last_of("_:");
+  const std::size_t last = base.find_last_of("_:/");
   if (last == std::string_view::npos) return {};
   std::string_view before = base.substr(0, last);
   while (!before.empty()) {
-    const std::size_t end = before.find_first_of("_:");
+    const std::size_t end = before.find_first_of("_:/");
     const std::string_view word = before.substr(0, end);
     if (any_word(kOthers, [&](std::string_view other) { return other == word; })) return {};
     before.remove_prefix(end == std::string_view::npos ? before.size() : end + 1);
@@ -348,6 +361,23 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
       }
       return false;
     });
+  }
+  const auto is_called = [&](Role role, std::string_view name) {
+    const auto column = find(role);
+    return column && headings[*column].base == name && !is_chosen(role);
+  };
+  // Across a picture, u and v; beside an x, v is a velocity.
+  if (const bool has_u = is_called(Role::kX, "u"); has_u != is_called(Role::kY, "v")) {
+    const Role alone = has_u ? Role::kX : Role::kY;
+    std::erase_if(columns_, [alone](const auto& column) { return column.first == alone; });
+  }
+  if (!has(Role::kTime)) {
+    std::vector<std::size_t> counting;  // of "secs" and "nsecs" neither is the time
+    for (std::size_t i = 0; i < headings.size(); ++i) {
+      const auto unit = unit_named(headings[i].base);
+      if (unit && counts_time(*unit)) counting.push_back(i);
+    }
+    if (counting.size() == 1) columns_.emplace_back(Role::kTime, counting.front());
   }
   for (const auto& [role, words] :
        {std::pair(Role::kTime, "t time stamp timestamp zeit"), std::pair(Role::kX, "x"),

@@ -55,6 +55,10 @@ std::optional<GeoPoint> parse_place(std::string_view text) {
     text = text.substr(open + 1, text.size() - open - 2);
     text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
   }
+  if (text.size() > 2 && ((text.front() == '[' && text.back() == ']') ||
+                          (text.front() == '(' && text.back() == ')'))) {
+    text = text.substr(1, text.size() - 2);
+  }
   const std::size_t joint = text.find_first_of(is_well_known ? " \t" : ",;");
   if (joint == std::string_view::npos) return std::nullopt;
   const auto first = number(text.substr(0, joint));

@@ -24,7 +24,8 @@ GeoPoint to_degrees(const GeoPoint& origin, const Eigen::Vector2d& position);
 /// anything else, or says east or west of a latitude.
 std::optional<double> parse_degrees(std::string_view text, bool is_latitude);
 
-/// The place in one cell: `51.47,-0.45`, latitude first, or the well-known text `POINT
+/// The place in one cell: `51.47,-0.45`, latitude first, also between brackets, or the well-known
+/// text `POINT
 /// (-0.45 51.47)`, which has the longitude first. Absent if the text is anything else.
 std::optional<GeoPoint> parse_place(std::string_view text);
 

@@ -141,6 +141,7 @@ std::int64_t PointReader::left_out() const { return state_->left_out; }
 const std::vector<std::string>& PointReader::remarks() const { return state_->remarks; }
 const std::string& PointReader::understood() const { return state_->understood; }
 const std::optional<GeoPoint>& PointReader::origin() const { return state_->origin; }
+bool PointReader::are_degrees() const { return state_->fixes.origin().has_value(); }
 
 std::vector<IdentifiedPoint> PointReader::next() {
   std::vector<PointRow> rows = state_->instants.next();

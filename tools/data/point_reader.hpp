@@ -52,6 +52,9 @@ class PointReader {
   /// tracks have it.
   const std::optional<GeoPoint>& origin() const;
 
+  /// Whether places are latitudes and longitudes in the file.
+  bool are_degrees() const;
+
   /// The points of the next instant; empty after the last.
   /// @throws InputError if an identity is there twice
   std::vector<IdentifiedPoint> next();

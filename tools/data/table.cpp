@@ -389,8 +389,10 @@ bool Table::next() {
     if (has_header_ && line_ == header_) continue;  // files that were put together have it again
     split_row(line_);
     if (cells_.size() == headings_.size()) return true;
-    reject(fmt::format("this row has {} fields; the {} row has {}", cells_.size(),
-                       has_header_ ? "header" : "first", headings_.size()));
+    const bool is_open = std::count(line_.begin(), line_.end(), '"') % 2 != 0;
+    reject(fmt::format("this row has {} fields; the {} row has {}{}", cells_.size(),
+                       has_header_ ? "header" : "first", headings_.size(),
+                       is_open ? "; a cell in quotes must end in its line" : ""));
   }
   return false;
 }

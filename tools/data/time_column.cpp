@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "tools/record/errors.hpp"
@@ -38,18 +39,24 @@ TimeColumn::TimeColumn(Table& table, const ReadOptions& options) {
   }
   column_ = frames ? *frame : time ? *time : table.required(Role::kTime);
   const std::size_t width = table.headings().size();
-  clock_.emplace(TimeFormat{.unit = column_ < width ? table.headings()[column_].unit : std::nullopt,
-                            .frame_rate = frames || is_chosen ? options.frame_rate : std::nullopt,
-                            .are_dates = columns.find(Role::kDate) == column_,
-                            .point = table.dialect().point},
-                 table.first_value(column_));
+  clock_.emplace(
+      TimeFormat{.unit = column_ < width ? table.headings()[column_].unit : std::nullopt,
+                 .frame_rate = frames || is_chosen ? options.frame_rate : std::nullopt,
+                 .are_dates = columns.find(Role::kDate) == column_,
+                 .has_date = columns.has(Role::kDate) && columns.find(Role::kDate) != column_,
+                 .point = table.dialect().point},
+      table.first_value(column_));
   const auto date = columns.find(Role::kDate);
-  if (!date || *date == column_ || !clock_->is_time_of_day()) return;
+  if (!date || *date == column_) return;
+  if (!clock_->is_time_of_day()) {
+    if (clock_->meaning() == "s") unused_date_ = date;
+    return;
+  }
   date_ = date;
   const std::string_view first = table.first_value(*date);
-  if (!parse_date(first) && parse_date(first, DateOrder::kMonthFirst)) {
-    order_ = DateOrder::kMonthFirst;
-  }
+  const auto orders = first.size() == 6 ? std::array{DateOrder::kYearFirst, DateOrder::kDayFirst}
+                                        : std::array{DateOrder::kDayFirst, DateOrder::kMonthFirst};
+  order_ = parse_date(first, orders[0]) || !parse_date(first, orders[1]) ? orders[0] : orders[1];
 }
 
 std::optional<double> TimeColumn::read(Table& table) {
@@ -79,6 +86,7 @@ std::string TimeColumn::describe(const Table& table) const {
   std::string text =
       fmt::format("t ({}) from {}", clock_->meaning(), name_of_quantity(table, column_));
   if (date_) text += " on " + name_of_column(table, *date_);
+  if (unused_date_) text += fmt::format(" ({} is not used)", name_of_column(table, *unused_date_));
   return text;
 }
 

@@ -36,7 +36,8 @@ class TimeColumn {
   double of_days(double time, std::int64_t line);
 
   std::size_t column_ = 0;
-  std::optional<std::size_t> date_;  // of a time of day
+  std::optional<std::size_t> date_;         // of a time of day
+  std::optional<std::size_t> unused_date_;  // beside seconds from anywhere
   DateOrder order_ = DateOrder::kDayFirst;
   int midnights_ = 0;      // passed so far
   double of_day_ = 0.0;    // of the row before [s]

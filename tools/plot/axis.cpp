@@ -12,7 +12,9 @@ namespace {
 /// A tick with the decimals that the step needs.
 std::string number_at(const Axis& axis, double tick) {
   if (axis.is_logarithmic) return fmt::format("{:.3g}", std::pow(10.0, tick));
-  const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
+  tick -= axis.offset;
+  const double largest =
+      std::max(std::abs(axis.low - axis.offset), std::abs(axis.high - axis.offset));
   if (largest >= 1e6 || (largest > 0.0 && largest < 1e-3)) {
     return std::abs(tick) < 1e-9 * largest ? "0" : fmt::format("{:.4g}", tick);
   }
@@ -35,6 +37,24 @@ std::string Axis::label(double tick) const {
   return text;
 }
 
+std::string Axis::title(const std::string& name) const {
+  return offset == 0.0 ? name : fmt::format("{}, less {:.0f}", name, offset);
+}
+
+namespace {
+
+/// What stands in front of all numbers of a far axis: 5400000 of 5400010 … 5400090.
+double offset_of(const Axis& axis) {
+  constexpr double kLong = 1e6;   // more digits than find room
+  constexpr double kFar = 100.0;  // spans away
+  const double nearest = std::min(std::abs(axis.low), std::abs(axis.high));
+  if (nearest < std::max(kLong, kFar * axis.span())) return 0.0;
+  const double power = std::pow(10.0, std::ceil(std::log10(axis.span())));
+  return std::floor(axis.low / power) * power;
+}
+
+}  // namespace
+
 Axis axis_over(double low, double high, double ticks, bool tight) {
   Axis axis;
   if (!(low <= high)) return axis_over(0.0, 1.0, ticks, tight);
@@ -55,6 +75,7 @@ Axis axis_over(double low, double high, double ticks, bool tight) {
   for (long i = first; i <= last && i - first < 100; ++i) {
     axis.ticks.push_back(static_cast<double>(i) * axis.step);
   }
+  axis.offset = offset_of(axis);
   return axis;
 }
 

@@ -13,12 +13,15 @@ struct Axis {
   std::vector<double> ticks;
   std::vector<std::string> names = {};  // of the ticks, instead of numbers
   bool is_logarithmic = false;
+  double offset = 0.0;  // taken off the numbers at the ticks, which would be too long
 
   double span() const { return high - low; }
   /// Where a value lies, from 0 at the low end to 1 at the high one.
   double share(double value) const;
   /// A tick as text, with the decimals that the step needs, or by its name.
   std::string label(double tick) const;
+  /// What the axis is called, and what was taken off its numbers.
+  std::string title(const std::string& name) const;
 };
 
 /// An axis over [low, high], a little wider, with about so many ticks.

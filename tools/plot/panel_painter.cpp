@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "tools/plot/axis.hpp"
@@ -137,6 +138,18 @@ void draw_dots(Canvas& canvas, const Frame& frame, const Curve& curve, double ra
   }
 }
 
+/// Where a curve without any length is, as of what stands still.
+std::optional<std::pair<double, double>> only_place(const Curve& curve) {
+  std::optional<std::pair<double, double>> place;
+  for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
+    const std::pair here(curve.x[i], curve.y[i]);
+    if (place && *place != here) return std::nullopt;
+    place = here;
+  }
+  return place;
+}
+
 void draw_curve(Canvas& canvas, const Frame& frame, const Curve& curve, const Palette& palette,
                 double font_size) {
   cairo_t* const cairo = canvas.cairo();
@@ -152,6 +165,11 @@ void draw_curve(Canvas& canvas, const Frame& frame, const Curve& curve, const Pa
   trace(cairo, frame, curve.x, curve.y);
   cairo_stroke(cairo);
   cairo_set_dash(cairo, nullptr, 0, 0.0);
+  if (const auto place = only_place(curve)) {
+    draw_dots(canvas, frame,
+              {.name = "", .x = {place->first}, .y = {place->second}, .mark = Mark::kDots},
+              font_size * 0.2);
+  }
 }
 
 void draw_band(Canvas& canvas, const Frame& frame, const Band& band, const Palette& palette) {
@@ -198,11 +216,11 @@ void draw_axes(Canvas& canvas, const Panel& panel, const Frame& frame, const Rec
   }
   canvas.text(plot.x, place.y + font_size * 1.1, panel.title, font_size, palette.ink, Align::kLeft,
               true);
-  canvas.text(plot.x + plot.width / 2.0, place.y + place.height - font_size * 0.25, panel.x_label,
-              small, palette.ink, Align::kCentre);
+  canvas.text(plot.x + plot.width / 2.0, place.y + place.height - font_size * 0.25,
+              frame.x.title(panel.x_label), small, palette.ink, Align::kCentre);
   const double beside = std::max(place.x + small, plot.x - widest - small * 1.3);
-  canvas.text(beside, plot.y + plot.height / 2.0, panel.y_label, small, palette.ink, Align::kCentre,
-              false, -std::numbers::pi / 2.0);
+  canvas.text(beside, plot.y + plot.height / 2.0, frame.y.title(panel.y_label), small, palette.ink,
+              Align::kCentre, false, -std::numbers::pi / 2.0);
 }
 
 struct Entry {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tools/record/box_fields.hpp"
+#include "tools/record/errors.hpp"
 #include "tools/record/frame_reader.hpp"
 #include "tools/record/kitti_file.hpp"
 #include "tools/record/text_file.hpp"
@@ -227,12 +228,14 @@ struct MotReader::State {
             },
             [this](const MotRow& row) {
               ++rows;
+              farthest = std::max({farthest, row.left + row.width, row.top + row.height});
               from_zero = from_zero || row.frame == 0;
               has_categories = has_categories || row.category != -1;
             },
             std::move(pause)) {}
 
   std::int64_t rows = 0;
+  double farthest = 0.0;  // corner of a box [px]
   bool has_categories = false;
   bool from_zero = false;  // the file counts frames
   MotKind kind;
@@ -243,7 +246,14 @@ struct MotReader::State {
 
 MotReader::MotReader(const std::filesystem::path& path, MotKind kind,
                      std::optional<std::int32_t> last_frame, std::function<void()> pause)
-    : state_(std::make_unique<State>(path, kind, last_frame, std::move(pause))) {}
+    : state_(std::make_unique<State>(path, kind, last_frame, std::move(pause))) {
+  constexpr double kFraction = 2.0;  // of a picture; as pixels it would be a corner of one
+  if (kind == MotKind::kDetections && state_->rows > 0 && state_->farthest < kFraction) {
+    throw InputError(path.string() +
+                     ": error: the boxes are fractions of the picture; multiply them by its width "
+                     "and height");
+  }
+}
 
 MotReader::~MotReader() = default;
 MotReader::MotReader(MotReader&&) noexcept = default;

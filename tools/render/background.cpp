@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tools/record/output_name.hpp"
+#include "tools/record/text_file.hpp"
 #include "tools/render/codecs.hpp"
 #include "tools/render/palette.hpp"
 
@@ -45,7 +48,7 @@ void check_size(const fs::path& path, int width, int height) {
 class Ground : public Background {
  public:
   explicit Ground(const FootageOptions& options)
-      : info_{options.width, options.height, options.fps.value_or(kUsualRate), false, {}} {}
+      : info_{options.width, options.height, options.fps.value_or(kUsualRate)} {}
   const BackgroundInfo& info() const override { return info_; }
   bool next(cv::Mat& image) override {
     image.create(info_.height, info_.width, CV_8UC3);
@@ -61,7 +64,7 @@ class Map : public Background {
  public:
   explicit Map(const FootageOptions& options) : picture_(read_picture(options.background)) {
     check_size(options.background, picture_.cols, picture_.rows);
-    info_ = {picture_.cols, picture_.rows, options.fps.value_or(kUsualRate), false, {}};
+    info_ = {picture_.cols, picture_.rows, options.fps.value_or(kUsualRate)};
   }
   const BackgroundInfo& info() const override { return info_; }
   bool next(cv::Mat& image) override {
@@ -89,6 +92,44 @@ bool comes_before(const fs::path& first, const fs::path& second) {
   return a != b ? a < b : first < second;
 }
 
+/// The number at the end of a picture's name: 12 of "img_000012.png".
+std::optional<double> number_of(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const std::size_t start = stem.find_last_not_of("0123456789") + 1;  // 0 if all are digits
+  return parse_number(std::string_view(stem).substr(start));
+}
+
+/// Which picture is shown at each number from the first to the last: where some are missing, the
+/// one before. One after the other if their names do not count them.
+std::vector<std::size_t> by_number(const std::vector<fs::path>& paths) {
+  std::vector<std::size_t> shown;
+  std::optional<double> before;
+  double step = std::numeric_limits<double>::infinity();
+  for (const fs::path& path : paths) {
+    const auto number = number_of(path);
+    if (before && number) step = std::min(step, *number - *before);
+    before = number;
+  }
+  before.reset();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const auto number = number_of(paths[i]);
+    if (before && number && step >= 1.0) {
+      const double more = (*number - *before) / step - 1.0;
+      const bool counts = more >= 0.0 && more == std::floor(more);
+      if (!counts ||
+          more + static_cast<double>(shown.size()) > 3.0 * static_cast<double>(paths.size())) {
+        shown.resize(paths.size());
+        std::iota(shown.begin(), shown.end(), std::size_t{0});
+        return shown;
+      }
+      shown.insert(shown.end(), static_cast<std::size_t>(more), i - 1);
+    }
+    before = number;
+    shown.push_back(i);
+  }
+  return shown;
+}
+
 /// A folder of pictures; the folder of a MOTChallenge sequence has them in img1.
 class Pictures : public Background {
  public:
@@ -104,22 +145,29 @@ class Pictures : public Background {
     std::sort(paths_.begin(), paths_.end(), comes_before);
     const cv::Mat first = read_picture(paths_.front());
     check_size(paths_.front(), first.cols, first.rows);
-    info_ = {first.cols, first.rows, options.fps.value_or(kUsualRate), true, paths_.size()};
+    shown_ = by_number(paths_);
+    info_ = {.width = first.cols,
+             .height = first.rows,
+             .fps = options.fps.value_or(kUsualRate),
+             .moves = true,
+             .images = shown_.size(),
+             .first_number = number_of(paths_.front()),
+             .missing = shown_.size() - paths_.size()};
   }
   const BackgroundInfo& info() const override { return info_; }
   bool next(cv::Mat& image) override {
-    if (at_ == paths_.size()) return false;
-    image = read_picture(paths_[at_]);
+    if (at_ == shown_.size()) return false;
+    const fs::path& path = paths_[shown_[at_++]];
+    image = read_picture(path);
     if (image.cols != info_.width || image.rows != info_.height) {
-      throw RequestError("'" + paths_[at_].string() +
-                         "' has another size than the pictures before");
+      throw RequestError("'" + path.string() + "' has another size than the pictures before");
     }
-    ++at_;
     return true;
   }
 
  private:
   std::vector<fs::path> paths_;
+  std::vector<std::size_t> shown_;  // of these, picture after picture
   std::size_t at_ = 0;
   BackgroundInfo info_;
 };

@@ -27,10 +27,12 @@ struct FootageOptions {
 
 /// What a background turned out to be.
 struct BackgroundInfo {
-  int width = 0, height = 0;          // [px]
-  double fps = 30.0;                  // of the video that is written [Hz]
-  bool moves = false;                 // it has pictures of its own; else as many as are wanted
-  std::optional<std::size_t> images;  // how many; absent: not known before the end
+  int width = 0, height = 0;               // [px]
+  double fps = 30.0;                       // of the video that is written [Hz]
+  bool moves = false;                      // it has pictures of its own; else as many as are wanted
+  std::optional<std::size_t> images = {};  // how many; absent: not known before the end
+  std::optional<double> first_number = {};  // of the first of numbered pictures
+  std::size_t missing = 0;  // of numbered pictures: the one before stands in for each
 };
 
 /// A track in a picture.

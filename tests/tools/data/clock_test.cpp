@@ -12,13 +12,26 @@ namespace {
 // Derived: 2024-06-11T07:30:15 UTC is 19 885 days and 27 015 seconds after the start of 1970.
 TEST(DateTime, MeansTheSameInEveryDialect) {
   constexpr double kSeconds = 19885.0 * 86400.0 + 7.0 * 3600.0 + 30.0 * 60.0 + 15.0;
-  for (const char* text :
-       {"2024-06-11T07:30:15Z", "2024-06-11 07:30:15", "2024-06-11T09:30:15+02:00",
-        "2024-06-11T02:00:15-0530", "2024/06/11 07:30:15.000", "20240611T073015Z",
-        "2024-06-11T07:30:15,0UTC", "2024-06-11T16:30:15+09", "11.06.2024 07:30:15",
-        "11/06/2024 07:30:15", "11.6.2024 7:30:15 AM", "11-Jun-2024 07:30:15.000",
-        "Tue Jun 11 09:30:15 GMT+02:00 2024", "Jun 11 07:30:15 2024", "20240611073015",
-        "2024.06.11 07:30:15", "2024-06-11T09:30:15+2", "2024-06-11 09:30:15 UTC+02:00"}) {
+  for (const char* text : {"2024-06-11T07:30:15Z",
+                           "2024-06-11 07:30:15",
+                           "2024-06-11T09:30:15+02:00",
+                           "2024-06-11T02:00:15-0530",
+                           "2024/06/11 07:30:15.000",
+                           "20240611T073015Z",
+                           "2024-06-11T07:30:15,0UTC",
+                           "2024-06-11T16:30:15+09",
+                           "11.06.2024 07:30:15",
+                           "11/06/2024 07:30:15",
+                           "11.6.2024 7:30:15 AM",
+                           "11-Jun-2024 07:30:15.000",
+                           "Tue Jun 11 09:30:15 GMT+02:00 2024",
+                           "Jun 11 07:30:15 2024",
+                           "20240611073015",
+                           "2024.06.11 07:30:15",
+                           "11.06.24 07:30:15",
+                           "11/6/24 7:30:15",
+                           "2024-06-11T09:30:15+2",
+                           "2024-06-11 09:30:15 UTC+02:00"}) {
     SCOPED_TRACE(text);
     ASSERT_TRUE(parse_date_time(text).has_value());
     EXPECT_EQ(*parse_date_time(text), kSeconds);
@@ -65,6 +78,27 @@ TEST(Clock, TurnsEveryUnitIntoSeconds) {
   EXPECT_EQ(read("", "25:00:01"), 90001.0);  // of a stopwatch
   EXPECT_EQ(read("", "01:02.5"), 62.5);
   EXPECT_EQ(read("days", "0.5"), 43200.0);
+  EXPECT_EQ(read("", "1.5 sec"), 1.5);  // a duration of MATLAB
+  EXPECT_EQ(read("", "2 min"), 120.0);
+  EXPECT_EQ(read("", "1 days 00:00:01.5"), 86401.5);  // and of pandas
+}
+
+// Derived: what loggers of GPS write; without its zeros at the front a time loses nothing, and a
+// number that no clock shows is none.
+TEST(Clock, ReadsTimesAndDatesOfDigits) {
+  EXPECT_EQ(parse_compact_time("095950"), 35990.0);
+  EXPECT_EQ(parse_compact_time("95950.25"), 35990.25);
+  EXPECT_EQ(parse_compact_time("7"), 7.0);
+  for (const char* none : {"", "246000", "126100", "1234567", "12:00", "-1", "1e3"}) {
+    EXPECT_FALSE(parse_compact_time(none)) << none;
+  }
+  EXPECT_EQ(parse_date("240611", DateOrder::kYearFirst), 19885);
+  EXPECT_EQ(parse_date("110624", DateOrder::kDayFirst), 19885);
+  EXPECT_EQ(parse_date("061124", DateOrder::kMonthFirst), 19885);
+  EXPECT_EQ(parse_date("700101", DateOrder::kYearFirst), 0);
+  EXPECT_FALSE(parse_date("241311", DateOrder::kYearFirst));
+  EXPECT_EQ(Clock({}, "95950").meaning(), "s");
+  EXPECT_EQ(Clock({.has_date = true}, "95950").seconds("100001"), 36001.0);
 }
 
 // Derived: 2024-06-11 is day 45454 of Excel and day 739414 of MATLAB; without dashes it is a date

@@ -143,6 +143,10 @@ TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
                      "field.pose.orientation.x,field.pose.orientation.y\n"
                      "0,1,1,2,9,9\n0.5,2,1.5,2.5,9,9\n"),
             expected);
+  EXPECT_EQ(
+      scans_of("t,/odom/pose/pose/position/x,/odom/pose/pose/position/y,/odom/twist/linear/x\n"
+               "0,1,2,9\n0.5,1.5,2.5,9\n"),
+      expected);
   EXPECT_EQ(scans_of("names,of,objects,here\na,b,c,d\n0,1,2,9\n0.5,1.5,2.5,9\n",
                      {.columns = "t=a,x=b,y=c"}),
             expected);
@@ -225,7 +229,21 @@ TEST(ScanReader, ReadsDegreesInEveryForm) {
   EXPECT_THAT(message_of("t,Position\n0,\"49.5,8.25\"\n1,here\n",
                          [](const auto& path) { ScanReader reader(path.string()); }),
               HasSubstr("'here' in column 'Position' is not a latitude and a longitude"));
-  EXPECT_EQ(last("49.5,8.25", "91,181"), Eigen::Vector2d(-1.0, -1.0));
+  EXPECT_EQ(last("\"[49.5, 8.25]\"", "\"[49.501, 8.251]\"", "latlng"), expected);
+  EXPECT_TRUE(last("0.86393797973719,0.14398966328953", "0.86395543302971,0.14400711658205",
+                   "lat (rad),lon (rad)")
+                  .isApprox(expected, 1e-6));
+  for (const char* nowhere : {"91,181", "91,0", "0,181"}) {
+    EXPECT_EQ(last("49.5,8.25", nowhere), Eigen::Vector2d(-1.0, -1.0));
+  }
+  const Eigen::Vector2d south = last("-49.5,-8.25", "-49.501,-8.251");
+  EXPECT_EQ(last("49.5,S,8.25,W", "49.501,S,8.251,W", "lat,ns,lon,ew"), south);
+  EXPECT_EQ(last("49.5,S,8.25,W", "49.501,S,8.251,W", "Latitude,N/S,Longitude,E/W"), south);
+  EXPECT_EQ(last("49.5,N,8.25,E", "49.501,N,8.251,E", "lat,ns,lon,ew"), expected);
+  EXPECT_EQ(last("49.5S,8.25W", "49.501S,8.251W", "LATITUDE N/S,LONGITUDE E/W"), south);
+  EXPECT_THAT(message_of("t,lat,ns,lon,ew\n0,49.5,N,8.25,E\n1,49.5,?,8.25,E\n",
+                         [](const auto& path) { ScanReader reader(path.string()); }),
+              HasSubstr("'?' in column 'ns' is not N or S"));
   EXPECT_THAT(message_of("t,lat,lon\n0,49°30'E,8°15'E\n",
                          [](const auto& path) { ScanReader reader(path.string()); }),
               HasSubstr("'49°30'E' in column 'lat' is not a number of degrees"));

@@ -56,6 +56,35 @@ TEST(SeriesReader, FindsWhatIsMeasured) {
   EXPECT_EQ(rows_of("date,steps\n1970-01-01,5\n1970-01-02,6\n"), "0:5 86400:6 ");
 }
 
+// Property: a number with a decimal comma is no place on earth, a velocity no coordinate, and a
+// column that is called like a unit of time counts in it.
+TEST(SeriesReader, TakesColumnsForWhatTheyAre) {
+  EXPECT_EQ(rows_of("Zeit (s);Position (m)\n0,0;1,00\n0,5;1,25\n"), "0:1 0.5:1.25 ");
+  EXPECT_EQ(rows_of("Zeit;Position\n0,0;1,00\n0,5;1,25\n"), "0:1 0.5:1.25 ");
+  EXPECT_EQ(rows_of("t,x,v\n0,1,9\n1,2,9\n"), "0:1 1:2 ");
+  EXPECT_EQ(rows_of("t,u,v\n0,1,9\n1,2,9\n"), "0:1,9 1:2,9 ");
+  EXPECT_EQ(rows_of("millis,height_mm\n0,1000\n500,1500\n"), "0:1 0.5:1.5 ");
+  EXPECT_EQ(rows_of("seconds_elapsed,z\n0,1\n0.5,2\n"), "0:1 0.5:2 ");
+  EXPECT_EQ(rows_of("z,min,h\n1,5,6\n2,5,6\n"), "1 2 ");
+}
+
+// Derived: hhmmss beside a date are times of one clock, over an hour's end and over midnight.
+TEST(SeriesReader, ReadsTimesOfDigitsBesideDates) {
+  const ScratchFolder folder;
+  SeriesReader reader(
+      folder.write("in.csv", "DATE,TIME,z\n240611,95959,1\n240611,100000,2\n240612,1,3\n")
+          .string());
+  std::vector<double> times;
+  while (const auto row = reader.next()) times.push_back(row->time.value());
+  ASSERT_EQ(times.size(), 3U);
+  EXPECT_EQ(times[0], 19885.0 * 86400.0 + 35999.0);
+  EXPECT_EQ(times[1] - times[0], 1.0);
+  EXPECT_EQ(times[2], 19886.0 * 86400.0 + 1.0);
+  SeriesReader other(
+      folder.write("b.csv", "date,t,z\n2024-06-11,0.5,1\n2024-06-11,1,2\n").string());
+  EXPECT_THAT(other.understood(), HasSubstr("('date' is not used)"));
+}
+
 // Property: units and capitals change no column's meaning.
 TEST(SeriesReader, KnowsColumnsWithUnits) {
   EXPECT_EQ(rows_of("t (s),x (mm),y (mm),z (mm)\n0,1000,2000,3000\n1,2000,3000,4000\n"),

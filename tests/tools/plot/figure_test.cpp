@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/plot/axis.hpp"
@@ -38,6 +41,26 @@ TEST(Axis, HasRoundTicks) {
   }
   EXPECT_EQ(axis_over(0.0, 1.0, 5.0, true).label(0.2), "0.2");
   EXPECT_EQ(axis_over(-100.0, 100.0, 5.0, true).label(-50.0), "−50");
+}
+
+// Property: the numbers of an axis that is far away are short and different, and its title says
+// what they lack.
+TEST(Axis, IsReadableFarAway) {
+  for (const double far : {5.4e6, 1.592e9, -5.4e6, 1e12}) {
+    for (const double span : {2.0, 90.0, 700.0}) {
+      const Axis axis = axis_over(far, far + span, 6.0, false);
+      std::set<std::string> labels;
+      for (const double tick : axis.ticks) {
+        labels.insert(axis.label(tick));
+        EXPECT_LE(axis.label(tick).size(), 6U) << axis.label(tick);
+        EXPECT_EQ(std::stod(axis.label(tick)) + axis.offset, tick);
+      }
+      EXPECT_EQ(labels.size(), axis.ticks.size());
+      EXPECT_EQ(axis.title("t [s]"), fmt::format("t [s], less {:.0f}", axis.offset));
+    }
+  }
+  EXPECT_EQ(axis_over(5.4e5, 5.4001e5, 6.0, false).title("x"), "x");
+  EXPECT_EQ(axis_over(0.0, 5e6, 6.0, false).title("x"), "x");
 }
 
 std::string bytes_of(const std::filesystem::path& path) {
