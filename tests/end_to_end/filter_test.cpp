@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,42 @@ TEST(FilterCommand, FitsLeastSquaresOverTrueTimes) {
     EXPECT_NEAR(result.last("x"), 4.0, 1e-9);
     EXPECT_NEAR(result.last("dx"), 2.0, 1e-7);
   }
+}
+
+// Derived: without a guess the first measurement is the first of the fit: two points give their
+// line, two of order 0 their mean, four the line of least squares.
+TEST(FilterCommand, CountsTheFirstMeasurementOfAFit) {
+  const Filtered fit = filtered("z\n1\n3\n5\n8\n", "--filter least-squares --order 1");
+  EXPECT_EQ(fit.rows.at(2).back(), "2");  // dx in row 2
+  EXPECT_NEAR(fit.last("x"), 7.7, 1e-12);
+  EXPECT_NEAR(fit.last("dx"), 2.3, 1e-12);
+  EXPECT_EQ(filtered("z\n0\n10\n", "--filter least-squares --order 0").last("x"), 5.0);
+}
+
+// Derived: what a map reads is compared with what the likeliest place shows, and is no place;
+// places on a ring are compared the short way round.
+TEST(FilterCommand, ScoresPlacesOnARing) {
+  const TemporaryFolder folder;
+  write(folder.path() / "doors.csv", "z,truth\n1,0\n0,2\n0,3\n1,8\n");
+  const Outcome doors = shell(
+      "ghtrack filter doors.csv -q --json --filter '{discrete-bayes: {map: "
+      "[1,1,0,0,0,0,0,0,1,0], accuracy: 0.75, movement: 1, kernel: [0.1,0.8,0.1]}}'",
+      folder.path());
+  ASSERT_EQ(doors.exit_code, 0) << doors.err;
+  const auto read = nlohmann::json::parse(doors.out);
+  EXPECT_NEAR(read.at("mai").get<double>(), 1.0 / 3.0, 1e-12);
+  EXPECT_TRUE(read.at("measurement_rmse").is_null());
+  write(folder.path() / "ring.csv", "z,truth\n8,8\n9,9\n9.4,0\n1,1\n0.4,9\n9,9\n");
+  const Outcome ring = shell(
+      "ghtrack filter ring.csv -q --json --filter '{discrete-bayes: {cells: 10, noise: 1, "
+      "movement: 0, kernel: [0.2,0.6,0.2]}}'",
+      folder.path());
+  ASSERT_EQ(ring.exit_code, 0) << ring.err;
+  const auto scored = nlohmann::json::parse(ring.out);
+  EXPECT_NEAR(scored.at("rmse").get<double>(), std::sqrt(4.0 / 6.0), 1e-12);
+  EXPECT_NEAR(scored.at("measurement_rmse").get<double>(), std::sqrt((0.36 + 1.96) / 6.0), 1e-12);
+  EXPECT_EQ(shell("echo 3 | ghtrack filter --filter discrete-bayes -q", folder.path()).exit_code,
+            0);
 }
 
 // Derived: even times are even steps, the first one included.

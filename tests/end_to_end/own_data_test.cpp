@@ -52,15 +52,27 @@ TEST(OwnData, EveryCommandOfThePageSucceeds) {
 // Property: `score` says the same of the files of a run as the run itself, of everything that both
 // say, parameters included: with several sensors at one instant and scans that come late, too.
 TEST(OwnData, ScoreAgreesWithTheRun) {
-  for (const char* scene : {"three_regimes.yaml", "sensors/radar_and_camera.yaml",
-                            "sensors/late_radar.yaml", "tracking/crossing.yaml"}) {
+  const TemporaryFolder scenes;
+  const fs::path odd = scenes.path() / "odd.yaml";  // scans whose only track is tentative, or none
+  write(odd, R"(
+targets:
+  - {name: a, train: {stock: ideal, speed: 20}}
+  - {name: b, appears: 5, disappears: 25, train: {stock: ideal, speed: 4, position: [0, 60]}}
+sensors:
+  - {name: one, rate: 2, detection_probability: 0.6, clutter: 1, field_of_view: [[-100, -50], [700, 100]]}
+  - {name: two, rate: 0.7, phase: 0.21, noise: 0.5}
+)");
+  for (const std::string& scene :
+       {scene_file("three_regimes.yaml").string() + " --duration 5",
+        scene_file("sensors/radar_and_camera.yaml").string() + " --duration 5",
+        scene_file("sensors/late_radar.yaml").string() + " --duration 5",
+        scene_file("tracking/crossing.yaml").string() + " --duration 5",
+        odd.string() + " --duration 30", odd.string() + " --duration 30 --set seed=3",
+        odd.string() + " --duration 30 --set sensors[1].rate=2 --set sensors[1].phase=0.003"}) {
     SCOPED_TRACE(scene);
     const TemporaryFolder folder;
-    ASSERT_EQ(
-        shell("ghtrack run " + scene_file(scene).string() + " --duration 5 --no-video -q -o run",
-              folder.path())
-            .exit_code,
-        0);
+    const Outcome ran = shell("ghtrack run " + scene + " --no-video -q -o run", folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
     const Outcome outcome =
         shell("ghtrack score --truth run --tracks run --json -q", folder.path());
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

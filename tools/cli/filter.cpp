@@ -241,7 +241,7 @@ class Session {
     if (moment.z && moved) {
       const AxisVector prior = positions(moment.prior);
       const AxisVector z = near(*moment.z, prior);
-      if (filter_.update(z, row)) moment.residual = z - prior;
+      if (filter_.update(z, row)) moment.residual = filter_.residual();
     }
     moment.posterior = estimates();
   }
@@ -285,11 +285,15 @@ class Session {
     errors_.add_row();
     if (moment.residual) errors_.add_innovation(moment.residual->norm());
     if (!row.truth) return;
+    const auto ring = plan_.config ? places_on_ring(*plan_.config) : std::nullopt;
     const auto squared_error = [&](const AxisVector& position) {
-      return (near(position, *row.truth) - *row.truth).squaredNorm();
+      AxisVector error = near(position, *row.truth) - *row.truth;
+      if (ring) error[0] = std::remainder(error[0], *ring);
+      return error.squaredNorm();
     };
     if (!moment.posterior.empty()) errors_.add_error(squared_error(positions(moment.posterior)));
-    if (moment.z) errors_.add_measurement_error(squared_error(*moment.z));
+    const bool is_comparable = !plan_.config || measures_state(*plan_.config);
+    if (moment.z && is_comparable) errors_.add_measurement_error(squared_error(*moment.z));
   }
 
   const FilterCommandOptions& options_;

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "scenes/schema/diagnostic.hpp"
 #include "tools/cli/commands.hpp"
@@ -38,15 +40,20 @@ double positive(const std::optional<double>& option, double fallback, const char
   return value;
 }
 
+/// What a run says of itself beside its truth.csv; nothing of another file.
+nlohmann::json metrics_of_run(const std::filesystem::path& truth) {
+  if (truth.filename() != "truth.csv") return nlohmann::json::object();
+  std::ifstream metrics(truth.parent_path() / "metrics.json");
+  if (!metrics) return nlohmann::json::object();
+  const auto json = nlohmann::json::parse(metrics, nullptr, /*allow_exceptions=*/false);
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
 /// What a run was scored with, as the metrics.json beside its truth.csv has it, so that both say
 /// the same of the same files.
 void take_parameters_of_run(const std::string& truth, ghtrack::ScoreOptions& result) {
-  const std::filesystem::path file(truth);
-  if (file.filename() != "truth.csv") return;
-  std::ifstream metrics(file.parent_path() / "metrics.json");
-  if (!metrics) return;
-  const auto json = nlohmann::json::parse(metrics, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object() || !json.contains("parameters")) return;
+  const nlohmann::json json = metrics_of_run(truth);
+  if (!json.contains("parameters")) return;
   const auto& parameters = json["parameters"];
   const auto take = [&](const char* name, double fallback) {
     const auto found = parameters.find(name);
@@ -170,6 +177,28 @@ void tell_of_instants(const InstantCounts& counts, double truth_period, double t
   tell_how_many(counts.tracks_alone, "tracks", "have no truth; they are scored as false");
 }
 
+/// Whether tracks and truth are of one run whose scans have all come in order: then each of them is
+/// an instant of both, also where there are no tracks.
+bool are_of_one_run(const ScorePair& pair) {
+  const std::filesystem::path truth = pair.truth, tracks = pair.tracks;
+  std::error_code ignored;
+  if (tracks.filename() != "tracks.csv" ||
+      !std::filesystem::equivalent(std::filesystem::absolute(truth, ignored).parent_path(),
+                                   std::filesystem::absolute(tracks, ignored).parent_path(),
+                                   ignored)) {
+    return false;
+  }
+  const nlohmann::json metrics = metrics_of_run(truth);
+  const nlohmann::json::json_pointer where("/arrivals/scans");
+  if (!metrics.contains(where)) return false;
+  const nlohmann::json& scans = metrics.at(where);
+  const auto is_in_order = [](const nlohmann::json& sensor) {
+    return sensor.is_object() && sensor.value("replayed", nlohmann::json()) == 0 &&
+           sensor.value("refused", nlohmann::json()) == 0;
+  };
+  return scans.is_object() && std::all_of(scans.begin(), scans.end(), is_in_order);
+}
+
 ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair, Extras& extras,
                               const Manners& manners) {
   const ReadOptions reading = read_options(options.data);
@@ -192,6 +221,7 @@ ScoreResult score_point_files(const ScoreOptions& options, const ScorePair& pair
   tell_what_was_read(tracks.understood(), tracks.left_out(), tracks.remarks(), manners);
   AtClock sources{.truth = {[&] { return truth.next(); }, truth.period()},
                   .tracks = {[&] { return tracks.next(); }, tracks.period()}};
+  if (are_of_one_run(pair)) sources.tracks.period = 0.0;
   if (options.latency) {
     sources = at_clock(std::move(sources.truth), std::move(sources.tracks), *options.latency);
   }

@@ -111,6 +111,7 @@ std::optional<AxisFilterConfig> configuration(const FilterCommandOptions& option
            : order == 1 ? fading_memory<1>(theta, are_timed)
                         : fading_memory<2>(theta, are_timed);
   }
+  if (text == DiscreteBayesConfig::kind) return DiscreteBayesConfig{};
   if (text == LeastSquaresConfig::kind) return LeastSquaresConfig{need_order(options)};
   if (text == ScalarKalmanConfig::kind) {
     return ScalarKalmanConfig{.p0 = need_variance(options, options.p0, "--p0"),
@@ -255,6 +256,15 @@ bool AxisFilters::update(const AxisVector& z, const MeasuredRow& row) {
     used = filter->update(measured, gains) && used;
   }
   return used;
+}
+
+AxisVector AxisFilters::residual() const {
+  AxisVector residual(static_cast<Eigen::Index>(axes_.size()));
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    residual[static_cast<Eigen::Index>(i)] =
+        std::visit([](const auto& filter) { return filter.residual().value()[0]; }, axes_[i]);
+  }
+  return residual;
 }
 
 Refusals AxisFilters::refusals() const {

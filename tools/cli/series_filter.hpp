@@ -45,6 +45,9 @@ class AxisFilters {
   /// @throws UsageError if the filter has no such gains
   bool update(const AxisVector& z, const MeasuredRow& row);
 
+  /// Of the last update: measured minus expected, by axis.
+  AxisVector residual() const;
+
   const Kinematics<1>& estimate(std::size_t axis) const { return ghtrack::estimate(axes_[axis]); }
   Refusals refusals() const;
 

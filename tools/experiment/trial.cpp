@@ -77,6 +77,11 @@ class ContenderScores final : public RunObserver {
     }
   }
 
+  void add_known(const TruthSnapshot& truth, const TrackSnapshot& tracks,
+                 std::size_t contender) override {
+    metrics_.add_known(truth, tracks, contender);
+  }
+
   void write_scores(std::vector<double>& scores) {
     const TrialLayout layout = trial_.layout();
     const RunReport report = metrics_.report();

@@ -10,7 +10,8 @@ namespace ghtrack {
 /// Points instant by instant, in the order of time.
 struct PointSource {
   std::function<std::vector<IdentifiedPoint>()> next;  // of the next instant; empty after the last
-  double period = 0.0;                                 // typical time between instants [s]
+  // Typical time between instants [s]; 0: any, so that none of the other side lies in between.
+  double period = 0.0;
 };
 
 /// Truth and tracks whose instants are those of the truth.

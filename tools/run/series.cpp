@@ -1,5 +1,6 @@
 #include "tools/run/series.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -71,11 +72,21 @@ discrete_bayes::Belief belief_of(const AxisFilter& filter) {
   return histogram != nullptr ? histogram->belief() : discrete_bayes::Belief();
 }
 
-/// What an estimate is off, on a ring of places the short way round.
-double error_of(double estimate, double truth, const SeriesScene& scene) {
-  const double error = estimate - truth;
-  const auto* const walk = std::get_if<WalkSeries>(&scene.data);
-  return walk == nullptr ? error : std::remainder(error, static_cast<double>(walk->map.size()));
+/// The places of the ring that a series is of; absent if it is of a line.
+std::optional<double> ring_of(const SeriesScene& scene) {
+  if (const auto* const walk = std::get_if<WalkSeries>(&scene.data)) {
+    return static_cast<double>(walk->map.size());
+  }
+  for (const SeriesFilter& filter : scene.filters) {
+    if (const auto places = places_on_ring(filter.model)) return places;
+  }
+  return std::nullopt;
+}
+
+/// What a value is off, on a ring of places the short way round.
+double error_of(double value, double truth, const std::optional<double>& ring) {
+  const double error = value - truth;
+  return ring ? std::remainder(error, *ring) : error;
 }
 
 class MeanSquare {
@@ -152,7 +163,7 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
       ++used;
     }
     if (now.truth) {
-      const double error = error_of(row.x, *now.truth, scene);
+      const double error = error_of(row.x, *now.truth, ring_of(scene));
       all.add(error);
       if (!is_guess) filtered.add(error);
     }
@@ -182,10 +193,13 @@ SeriesResult run(const SeriesScene& scene) {
       [&](const auto& series) { return measure(series, scene.dt, scene.seed); }, scene.data);
   SeriesResult result{.measurements = measurements, .tracks = {}, .measurement_rmse = {}};
   MeanSquare errors;
-  const bool are_readings = std::holds_alternative<WalkSeries>(scene.data);  // no places
+  const bool are_readings =  // no places
+      std::holds_alternative<WalkSeries>(scene.data) ||
+      std::any_of(scene.filters.begin(), scene.filters.end(),
+                  [](const SeriesFilter& filter) { return !measures_state(filter.model); });
   for (const SeriesMeasurement& measurement : measurements) {
     const bool is_comparable = measurement.truth && !are_readings && !std::isnan(measurement.z);
-    if (is_comparable) errors.add(measurement.z - *measurement.truth);
+    if (is_comparable) errors.add(error_of(measurement.z, *measurement.truth, ring_of(scene)));
   }
   result.measurement_rmse = errors.root();
   for (const SeriesFilter& filter : scene.filters) {

@@ -75,9 +75,21 @@ bool needs_guess(const AxisFilterConfig& config) {
   return std::visit(
       [](const auto& chosen) {
         if constexpr (requires { is_constant(chosen); }) return is_constant(chosen);
-        return std::is_same_v<std::decay_t<decltype(chosen)>, LeastSquaresConfig>;
+        return false;
       },
       config);
+}
+
+std::optional<double> places_on_ring(const AxisFilterConfig& config) {
+  const auto* const histogram = std::get_if<DiscreteBayesConfig>(&config);
+  if (histogram == nullptr || !histogram->ring) return std::nullopt;
+  return histogram->map.empty() ? static_cast<double>(histogram->cells)
+                                : static_cast<double>(histogram->map.size());
+}
+
+bool measures_state(const AxisFilterConfig& config) {
+  const auto* const histogram = std::get_if<DiscreteBayesConfig>(&config);
+  return histogram == nullptr || histogram->map.empty();
 }
 
 int order_of(const AxisFilterConfig& config) {

@@ -71,6 +71,12 @@ AxisFilter make_axis_filter(const AxisFilterConfig& config, double sigma, double
 /// Is a filter of this kind made from a guess alone, with nothing to learn at its start?
 bool needs_guess(const AxisFilterConfig& config);
 
+/// Of a histogram on a ring the number of places, after which they begin anew.
+std::optional<double> places_on_ring(const AxisFilterConfig& config);
+
+/// Whether a measurement is one of what is estimated; what a map reads is not.
+bool measures_state(const AxisFilterConfig& config);
+
 /// The highest derivative that the filter carries.
 int order_of(const AxisFilterConfig& config);
 

@@ -68,7 +68,11 @@ bool DiscreteBayesFilter::update(const Vector& z) {
     ++refusals_.measurements;
     return false;
   }
-  residual_ = Vector(z[0] - expected_at(likeliest_));
+  double residual = z[0] - expected_at(likeliest_);
+  if (config_.map.empty() && config_.ring) {
+    residual = std::remainder(residual, static_cast<double>(belief_.size()));
+  }
+  residual_ = Vector(residual);
   belief_ = discrete_bayes::updated(likelihoods, belief_);
   prior_ = estimate_;
   choose();

@@ -86,7 +86,8 @@ class DiscreteBayesFilter {
   /// The likeliest place, the first of equals.
   const Kinematics<1>& prior() const { return prior_; }
   const Kinematics<1>& estimate() const { return estimate_; }
-  /// Measured minus expected: with a map what was read minus what the likeliest place shows.
+  /// Measured minus expected: with a map what was read minus what the likeliest place shows; on a
+  /// ring the short way round.
   const std::optional<Vector>& residual() const { return residual_; }
   const Refusals& refusals() const { return refusals_; }
 
