@@ -92,23 +92,46 @@ bool learns_from_noise(const MultipleModelFilter&) { return true; }
 bool learns_from_noise(const ImmFilter&) { return true; }
 bool learns_from_noise(const auto&) { return false; }
 
-/// Whether a filter that has settled answers a residual of 100 sigma by less than in proportion.
-bool has_limit(Filter filter) {
-  const double sigma = std::visit([](const auto& f) { return f.sigma(); }, filter);
-  const Eigen::Matrix2d accuracy = sigma * sigma * Eigen::Matrix2d::Identity();
-  constexpr double kInterval = 1.0;  // any will do [s]
-  start(filter, Vec2::Zero(), accuracy);
-  for (int i = 0; i < kSettled; ++i) {
-    predict(filter, kInterval);
-    update(filter, Vec2::Zero(), accuracy);
+/// A filter after some measurements of its own accuracy, about to take another.
+class SettledFilter {
+ public:
+  explicit SettledFilter(const Filter& fresh)
+      : filter_(fresh), sigma_(std::visit([](const auto& f) { return f.sigma(); }, fresh)) {
+    constexpr double kInterval = 1.0;  // any will do [s]
+    start(filter_, Vec2::Zero(), accuracy(1.0));
+    for (int i = 0; i < kSettled; ++i) {
+      predict(filter_, kInterval);
+      update(filter_, Vec2::Zero(), accuracy(1.0));
+    }
+    predict(filter_, kInterval);
   }
-  predict(filter, kInterval);
-  const auto answer_to = [&](double residual) {
-    Filter moved = filter;
-    update(moved, Vec2(residual, 0.0), accuracy);
+
+  /// How far it moves towards a residual; both of these in sigmas of its own.
+  double answer_to(double residual, double error) const {
+    Filter moved = filter_;
+    update(moved, Vec2(residual * sigma_, 0.0), accuracy(error));
     return estimate(moved).position.x();
-  };
-  return answer_to(100.0 * sigma) < 500.0 * answer_to(kSmall * sigma);
+  }
+
+ private:
+  Eigen::Matrix2d accuracy(double error) const {
+    return error * error * sigma_ * sigma_ * Eigen::Matrix2d::Identity();
+  }
+
+  Filter filter_;
+  double sigma_;
+};
+
+/// Whether a filter that has settled answers a residual of 100 sigma by less than in proportion.
+bool has_limit(const Filter& fresh) {
+  const SettledFilter filter(fresh);
+  return filter.answer_to(100.0, 1.0) < 500.0 * filter.answer_to(kSmall, 1.0);
+}
+
+/// Whether it answers what is said to be more accurate by more.
+bool heeds_accuracy(const Filter& fresh) {
+  const SettledFilter filter(fresh);
+  return filter.answer_to(kSmall, 0.5) != filter.answer_to(kSmall, 1.0);
 }
 
 /// As a Stream's step: so many numbers apart for each shadow.
@@ -123,7 +146,7 @@ ExpectedError::ExpectedError(const Filter& fresh, const TruthState& truth,
                              Noise noise)
     : time_(time),
       filter_(fresh),
-      is_linear_(has_own_gains(fresh)),
+      is_linear_(has_own_gains(fresh) && !(noise == Noise::kTurning && heeds_accuracy(fresh))),
       shadows_(is_linear_ && noise == Noise::kNormal ? 0 : kShadows, fresh),
       key_(key) {
   const std::optional<ExpectedMeasurement> seen = shown(first, truth.position);

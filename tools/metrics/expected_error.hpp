@@ -36,8 +36,10 @@ struct SensedDetection {
 class ExpectedError {
  public:
   /// Where the errors of some sensor are not normal, only shadows know the length of residuals,
-  /// also of those of other sensors, as the prediction is not normal either.
-  enum class Noise { kNormal, kOther };
+  /// also of those of other sensors, as the prediction is not normal either. Where what is told of
+  /// the errors turns with them, as far from a coarse radar, they alone know of filters that heed
+  /// it.
+  enum class Noise { kNormal, kOther, kTurning };
 
   using Vector6 = Eigen::Matrix<double, 6, 1>;  // position, velocity, acceleration on x and y
   using Matrix6 = Eigen::Matrix<double, 6, 6>;

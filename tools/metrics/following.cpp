@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <numbers>
 #include <tuple>
+#include <variant>
 
+#include "sensors/radar.hpp"
 #include "sim/random.hpp"
 
 namespace ghtrack {
@@ -33,6 +36,17 @@ constexpr std::size_t kMostExpected = 1000;
 std::uint64_t key_of(const Vec2& position) {
   return combine(std::bit_cast<std::uint64_t>(position.x()),
                  std::bit_cast<std::uint64_t>(position.y()));
+}
+
+/// Whether what a radar tells of its errors turns with them, as it is told about the bearing that
+/// was measured. The measure is that of the bias of converted measurements, R σ_θ² beside σ_r
+/// (Lerro & Bar-Shalom 1993).
+bool tells_turned_errors(const SensorConfig& sensor, const Vec2& place) {
+  constexpr double kSmall = 0.2;
+  const auto* const radar = std::get_if<Radar>(&sensor.model);
+  if (radar == nullptr) return false;
+  const double bearing = radar->sigma_bearing_deg * std::numbers::pi / 180.0;
+  return (place - sensor.site).norm() * bearing * bearing > kSmall * radar->sigma_range;
 }
 
 /// What a track is known by from its birth on: confirmation may give it another id.
@@ -156,8 +170,13 @@ void Following::advance(std::optional<ExpectedError>& error, const Moment& momen
   if (error) {
     error->advance(moment.truth, moment.time, used);
   } else if (used) {
+    const bool are_turned = std::any_of(theory_->sensors.begin(), theory_->sensors.end(),
+                                        [&](const SensorConfig& sensor) {
+                                          return tells_turned_errors(sensor, moment.truth.position);
+                                        });
     error.emplace(theory_->design.filter_for(moment.used->label, moment.sensor), moment.truth,
-                  *used, moment.time, key_of(moment.used->position), noise_);
+                  *used, moment.time, key_of(moment.used->position),
+                  are_turned ? ExpectedError::Noise::kTurning : noise_);
   }
 }
 

@@ -138,6 +138,13 @@ TEST(Prediction, HoldsWithRadar) {
   expect_predicted(compared_sensors(radar, "ball: {position: [0, 2], velocity: [15, 70]}"));
 }
 
+// Property: and far from a coarse radar, whose account of its errors turns with them.
+TEST(Prediction, HoldsFarFromACoarseRadar) {
+  expect_predicted(compared_sensors(
+      "[{name: radar, rate: 2, site: [0, -800], kind: radar, sigma_range: 0.5, sigma_bearing_deg: "
+      "2}]"));
+}
+
 // Property: errors without a variance have no prediction.
 TEST(Prediction, IsAbsentWhereItCannotBeKnown) {
   for (const ComparisonRow& row :
