@@ -230,8 +230,12 @@ class Session {
     filter_.start(row);
     moment.prior = moment.posterior = estimates();
     if (manners_.quiet) return;
-    tell("ghtrack: there is no --x0, so the filter starts at the measurement of row {}",
-         row.number);
+    const bool guesses_rate = !plan_.config && options_.dx0.empty();
+    tell("ghtrack: there is no --x0, so the filter starts at the measurement of row {}{}",
+         row.number,
+         guesses_rate ? fmt::format(", at a rate of 0 with variance {:g} (--dx0, --p0)",
+                                    options_.p0.value_or(1.0))
+                      : std::string());
   }
 
   void step(const MeasuredRow& row, double dt, Moment& moment) {

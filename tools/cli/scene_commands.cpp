@@ -34,15 +34,21 @@ bool takes_gains_from_a_table(const SingleFilterConfig& filter) {
 void warn_of_tables(const std::string& file, const Scene& scene) {
   const auto* world = std::get_if<WorldScene>(&scene);
   if (world == nullptr || world->sensors.size() < 2) return;
-  for (const auto& [label, filter] : world->tracker.filters) {
-    const std::vector<SingleFilterConfig> filters = filters_of(world->tracker, label);
-    if (std::none_of(filters.begin(), filters.end(), takes_gains_from_a_table)) continue;
-    const std::string key = "tracker.filters." + label;
-    tell(
-        "{}: warning: {}: irregular_time: of the scans of {} sensors times and accuracies differ, "
-        "for which only gains-from-covariance is right",
-        place_of(file, key), key, world->sensors.size());
-  }
+  const auto warn = [&](const std::string& section, const auto& named) {
+    TrackerConfig one;
+    for (const auto& [name, filter] : named) {
+      one.filters = {{std::string(TrackerConfig::kDefaultFilter), filter}};
+      const auto filters = filters_of(one, std::string(TrackerConfig::kDefaultFilter));
+      if (std::none_of(filters.begin(), filters.end(), takes_gains_from_a_table)) continue;
+      const std::string key = section + "." + name;
+      tell(
+          "{}: warning: {}: irregular_time: of the scans of {} sensors times and accuracies "
+          "differ, for which only gains-from-covariance is right",
+          place_of(file, key), key, world->sensors.size());
+    }
+  };
+  warn("tracker.filters", world->tracker.filters);
+  warn("compare.filters", world->compare.filters);
 }
 
 void warn_of_passages(const std::string& file, const Scene& scene) {

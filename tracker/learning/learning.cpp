@@ -20,11 +20,12 @@
 namespace ghtrack {
 namespace {
 
-constexpr int kMostPasses = 6;            // with filters of constant velocity
-constexpr double kFirstDetection = 0.8;   // probability, until it is known
-constexpr double kFirstIndex = 0.3;       // squared tracking index q T³ / σ²
-constexpr double kFalseAtLeast = 0.02;    // of the detections, until it is known
-constexpr double kClearlyBetter = 5.0;    // in ln p: by which a costlier filter has to be better
+constexpr int kMostPasses = 6;           // with filters of constant velocity
+constexpr double kFirstDetection = 0.8;  // probability, until it is known
+constexpr double kFirstIndex = 0.3;      // squared tracking index q T³ / σ²
+constexpr double kOtherNoise = 2.0;     // as many times that of all together is a sensor of its own
+constexpr double kFalseAtLeast = 0.02;  // of the detections, until it is known
+constexpr double kClearlyBetter = 5.0;  // in ln p: by which a costlier filter has to be better
 constexpr std::size_t kFewestTracks = 2;  // for a class to get a filter of its own
 constexpr std::size_t kFewestFixes = 30;
 
@@ -237,7 +238,8 @@ class Learner {
   }
 
   Parameters begin() const {
-    const auto scales = first_guess(looks());
+    const std::vector<std::vector<SensorLook>> seen_by = looks();
+    const auto scales = first_guess(seen_by);
     const double fallback = extent_ > 0.0 ? 0.01 * extent_ : 1.0;
     double noise = std::max(scales ? scales->noise : fallback, least_noise({}).minCoeff());
     if (said_.front().noise) noise = std::sqrt(said_.front().noise->prod());
@@ -246,25 +248,31 @@ class Learner {
         std::max(scales ? 0.5 * scales->speed : noise / interval_, noise / interval_);
     const double density = kFirstIndex * noise * noise / portable::pow(interval_, 3);
     p.motion.process_density[kAnyClass] = {density, 0.0, 0.0};
-    const double real =
-        scales ? std::min(scales->share / (kFirstDetection * kFirstDetection), 1.0) : 0.5;
+    const auto real_of = [](const std::optional<Scales>& guess) {
+      return guess ? std::min(guess->share / (kFirstDetection * kFirstDetection), 1.0) : 0.5;
+    };
     p.existence = config_.existence;
     for (std::size_t s = 0; s < said_.size(); ++s) {
       const SensorSaid& said = said_[s];
       const auto given_or = [](const std::optional<double>& given, double otherwise) {
         return given ? Learned::given(*given) : Learned{otherwise, 0.0, 0.0};
       };
+      // What is coarse beside another sensor is not false.
+      const auto own = said_.size() > 1 ? first_guess(std::span(&seen_by[s], 1)) : std::nullopt;
+      const bool differs = own && std::max(own->noise / noise, noise / own->noise) > kOtherNoise;
+      const double usual = differs ? std::max(own->noise, least_noise({}).minCoeff()) : noise;
       p.motion.noise.push_back(said.noise
                                    ? LearnedMotion::Noise{Learned::given(said.noise->x()),
                                                           Learned::given(said.noise->y())}
-                                   : LearnedMotion::Noise{{noise, 0.0, 0.0}, {noise, 0.0, 0.0}});
+                                   : LearnedMotion::Noise{{usual, 0.0, 0.0}, {usual, 0.0, 0.0}});
       p.detection_probability.push_back(given_or(said.detection_probability, kFirstDetection));
       double seen = 0.0;
       for (const Scan& scan : scans_) {
         if (scan.sensor == static_cast<int>(s)) seen += static_cast<double>(scan.detections.size());
       }
       const double each = seen / std::max<double>(1.0, static_cast<double>(times_[s].size()));
-      p.clutter.push_back(given_or(said.clutter, std::max(1.0 - real, kFalseAtLeast) * each));
+      p.clutter.push_back(given_or(
+          said.clutter, std::max(1.0 - real_of(differs ? own : scales), kFalseAtLeast) * each));
     }
     p.area = areas(p, {});
     set_filters(p);
