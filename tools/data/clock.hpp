@@ -47,8 +47,8 @@ struct TimeFormat {
   std::optional<Unit> unit = std::nullopt;          // if the heading has one
   std::optional<double> frame_rate = std::nullopt;  // of a column of frame numbers [Hz]
   bool are_dates = false;                           // the heading says so
-  bool has_date = false;                            // the day stands in another column
-  char point = '.';                                 // before decimals
+  bool has_date = false;  // the day stands in another column, and times may be hhmmss
+  char point = '.';       // before decimals
 };
 
 /// Turns the time of a row into seconds, in the way that the first row shows.

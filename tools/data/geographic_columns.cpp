@@ -13,7 +13,8 @@ namespace {
 
 /// Whether it is what ships say of their place when they do not know it (ITU-R M.1371).
 bool is_nowhere(const GeoPoint& point) {
-  return point.latitude == 91.0 || point.longitude == 181.0;
+  return (point.latitude == 91.0 && (point.longitude == 181.0 || point.longitude == 0.0)) ||
+         (point.longitude == 181.0 && point.latitude == 0.0);
 }
 
 /// The column after a coordinate that says on which side of the equator, or of Greenwich, it is.
@@ -26,12 +27,13 @@ std::optional<std::size_t> side_of(const Table& table, std::size_t coordinate,
                                                                           : std::nullopt;
 }
 
-/// Whether a column holds places: not numbers with a decimal comma, nor what has a unit.
-bool has_places(const Table& table, std::size_t column) {
+/// Whether a column holds places: what has a unit does not, nor numbers with a decimal comma, which
+/// have no points.
+bool has_places(Table& table, std::size_t column) {
   const Heading& heading = table.headings()[column];
   const std::string_view first = table.first_value(column);
-  return parse_place(first) && !heading.unit && heading.unread.empty() &&
-         !parse_number(first, table.dialect());
+  const bool are_numbers = parse_number(first, table.dialect()) && !table.shows(column, '.');
+  return parse_place(first) && !heading.unit && heading.unread.empty() && !are_numbers;
 }
 
 bool is_in_radians(const Table& table, std::size_t column) {
@@ -61,7 +63,7 @@ bool is_of_fit(const Table& table, std::size_t column) {
 
 }  // namespace
 
-std::optional<GeographicColumns> GeographicColumns::find(const Table& table,
+std::optional<GeographicColumns> GeographicColumns::find(Table& table,
                                                          std::optional<GeoPoint> origin) {
   const ColumnMap& columns = table.columns();
   const auto place = columns.find(Role::kPlace);

@@ -16,8 +16,7 @@ class GeographicColumns {
  public:
   /// Absent if the table has none, or has coordinates in a plane, which come first.
   /// @param origin  of the local metres; the first point of the file if not given
-  static std::optional<GeographicColumns> find(const Table& table,
-                                               std::optional<GeoPoint> origin = {});
+  static std::optional<GeographicColumns> find(Table& table, std::optional<GeoPoint> origin = {});
 
   /// Where the present row was [m], x east and y north; absent where it does not say. What is
   /// neither a place nor missing is noted.

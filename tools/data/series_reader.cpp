@@ -54,7 +54,7 @@ std::optional<std::size_t> only_column_left(const Table& table) {
   return left;
 }
 
-Measured find_measured(const Table& table) {
+Measured find_measured(Table& table) {
   const ColumnMap& columns = table.columns();
   const auto x = columns.find(Role::kX), y = columns.find(Role::kY), z = columns.find(Role::kZ);
   if (columns.is_chosen(Role::kZ)) return {{*z}, {}};

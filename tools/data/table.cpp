@@ -354,6 +354,15 @@ bool Table::begins_with_numbers(std::size_t column) {
   return true;
 }
 
+bool Table::shows(std::size_t column, char character) {
+  for (std::size_t row = first_row_; row < sample_.size(); ++row) {
+    split_row(sample_[row].text);
+    if (cells_.size() != headings_.size()) continue;
+    if (cells_[column].find(character) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
 std::string_view Table::first_value(std::size_t column) const {
   const bool found = column < first_values_.size() && !first_values_[column].empty();
   return found ? std::string_view(first_values_[column]) : first_cell(column);

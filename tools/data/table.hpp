@@ -61,6 +61,9 @@ class Table {
   /// Whether the first rows have nothing but digits, signs and points in a column.
   bool begins_with_numbers(std::size_t column);
 
+  /// Whether the first rows have a character in a column.
+  bool shows(std::size_t column, char character);
+
   /// The first number, date or time of a column in the first rows; else its first cell.
   std::string_view first_value(std::size_t column) const;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -17,6 +18,17 @@ std::optional<std::size_t> time_column(const Table& table) {
   const auto date = table.columns().find(Role::kDate);
   const char point = table.dialect().point;
   return date && is_date_or_day(table.first_value(*date), point) ? date : std::nullopt;
+}
+
+/// Whether a column of digits is hhmmss beside a date: by its length, or that of the date.
+bool is_beside_date(const Table& table, std::size_t time) {
+  const auto date = table.columns().find(Role::kDate);
+  if (!date || *date == time) return false;
+  const auto digits = [&](std::size_t column) {
+    const std::string_view text = table.first_value(column);
+    return std::min(text.find_first_not_of("0123456789"), text.size());
+  };
+  return digits(time) >= 5 || digits(*date) == 6;
 }
 
 }  // namespace
@@ -39,13 +51,12 @@ TimeColumn::TimeColumn(Table& table, const ReadOptions& options) {
   }
   column_ = frames ? *frame : time ? *time : table.required(Role::kTime);
   const std::size_t width = table.headings().size();
-  clock_.emplace(
-      TimeFormat{.unit = column_ < width ? table.headings()[column_].unit : std::nullopt,
-                 .frame_rate = frames || is_chosen ? options.frame_rate : std::nullopt,
-                 .are_dates = columns.find(Role::kDate) == column_,
-                 .has_date = columns.has(Role::kDate) && columns.find(Role::kDate) != column_,
-                 .point = table.dialect().point},
-      table.first_value(column_));
+  clock_.emplace(TimeFormat{.unit = column_ < width ? table.headings()[column_].unit : std::nullopt,
+                            .frame_rate = frames || is_chosen ? options.frame_rate : std::nullopt,
+                            .are_dates = columns.find(Role::kDate) == column_,
+                            .has_date = is_beside_date(table, column_),
+                            .point = table.dialect().point},
+                 table.first_value(column_));
   const auto date = columns.find(Role::kDate);
   if (!date || *date == column_) return;
   if (!clock_->is_time_of_day()) {

@@ -162,11 +162,6 @@ void TextInput::check(std::string_view line) const {
   if (line_number_ == 1 && line.starts_with("PK\x03\x04")) {
     fail("this is an archive, as a workbook (.xlsx) is; save it as CSV");
   }
-  const bool is_printable = std::none_of(line.begin(), line.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte < 0x20 && byte != '\t';
-  });
-  if (is_printable) fail("this is no UTF-8, perhaps Latin-1; save it as UTF-8");
   fail("this is no text: a control character, or a byte that is not UTF-8");
 }
 

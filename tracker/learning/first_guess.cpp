@@ -137,6 +137,19 @@ double common_step(std::vector<double>& values) {
   return step;
 }
 
+/// The finer step of the places along the axes; an axis along which nothing ever moves has none.
+double step_of(std::span<const std::vector<SensorLook>> sensors) {
+  Eigen::AlignedBox2d box;
+  for (const auto& looks : sensors) {
+    for (const SensorLook& look : looks) {
+      for (const Glimpse& seen : look) box.extend(seen.position);
+    }
+  }
+  const Eigen::Vector2d steps = rounding(sensors);
+  if (!(box.sizes().minCoeff() > 0.0)) return steps.maxCoeff();
+  return steps.minCoeff();
+}
+
 /// Noises to try, evenly spaced by their logarithm over the residuals there are.
 /// @param rounding  the step of the places
 std::vector<double> noises_of(const std::vector<Pair>& pairs, double rounding) {
@@ -186,7 +199,7 @@ std::optional<Scales> first_guess(std::span<const std::vector<SensorLook>> senso
             [](const Pair& a, const Pair& b) { return a.speed < b.speed; });
   Scales best;
   std::vector<Trial> trials;
-  for (const double noise : noises_of(pairs, rounding(sensors).minCoeff())) {
+  for (const double noise : noises_of(pairs, step_of(sensors))) {
     if (!(noise > 0.0)) continue;
     const double variance = noise * noise;
     for (const double share : kShares) {

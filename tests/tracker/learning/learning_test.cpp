@@ -103,6 +103,58 @@ TEST(Learning, FollowsWhatIsParked) {
   }
 }
 
+// Property: what moves along an axis, without any error, is one target, whatever the clock shows:
+// the area that it is seen in is more than the line.
+TEST(Learning, FollowsWhatMovesAlongAnAxis) {
+  for (const double start : {0.0, 1000.1, 1.6e9}) {
+    for (const auto& [step, period, count] :
+         {std::tuple(2.0, 1.0, 10), std::tuple(1.5, 0.1, 100), std::tuple(1.0, 0.04, 50)}) {
+      for (const bool is_upright : {false, true}) {
+        std::vector<Scan> scans;
+        for (int k = 0; k < count; ++k) {
+          const Eigen::Vector2d along(step * k, 3.0);
+          scans.push_back({.time = start + period * k, .sensor = 0, .detections = {}});
+          scans.back().detections.push_back(
+              {.position = is_upright ? Eigen::Vector2d(along.reverse()) : along,
+               .covariance = Eigen::Matrix2d::Zero(),
+               .label = {}});
+        }
+        const LearnedTracker learned = learned_from(scans, period);
+        EXPECT_EQ(learned.tracks, 1) << start << " " << step;
+        EXPECT_GT(learned.explained, 0.98) << start << " " << step;
+      }
+    }
+  }
+}
+
+// Property: of two sensors that see the same each has its own noise; the coarse one's detections
+// are not taken for false ones.
+TEST(Learning, TellsCoarseSensorsFromFineOnes) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  std::vector<Scan> scans;
+  for (int k = 0; k < 400; ++k) {
+    const double noise = k % 2 == 0 ? 3.0 : 0.3;
+    Eigen::Vector2d place(0.25 * k, 40.0 - 0.1 * k);
+    place.x() += noise * normal(random);
+    place.y() += noise * normal(random);
+    scans.push_back({.time = 0.05 * k, .sensor = k % 2, .detections = {}});
+    scans.back().detections.push_back(
+        {.position = place, .covariance = Eigen::Matrix2d::Zero(), .label = {}});
+  }
+  const SensorSaid often{
+      .period = 0.1, .noise = {}, .field_of_view = {}, .detection_probability = {}, .clutter = {}};
+  const std::vector<SensorSaid> said(2, often);
+  const LearnedTracker learned = learn(TrackerConfig{}, said, scans);
+  ASSERT_EQ(learned.sensors.size(), 2U);
+  EXPECT_NEAR(learned.sensors[0].noise.x.value, 3.0, 0.6);
+  EXPECT_NEAR(learned.sensors[1].noise.x.value, 0.3, 0.06);
+  for (const LearnedSensor& sensor : learned.sensors) {
+    EXPECT_GT(sensor.detection_probability.value, 0.95);
+    EXPECT_LT(sensor.clutter.value, 0.05);
+  }
+}
+
 // Property: false detections are spread over their own area, however far targets go: only as many
 // are taken for targets as chance brings together there.
 TEST(Learning, FindsWhereFalseDetectionsLie) {
