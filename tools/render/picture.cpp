@@ -26,6 +26,22 @@ bool is_elongated(const Eigen::Matrix2d& covariance) {
   return covariance.determinant() < 0.8 * mean * mean;
 }
 
+std::vector<Pixel> outline_of(const Viewport& box) {
+  return {{box.left, box.top},
+          {box.right(), box.top},
+          {box.right(), box.bottom()},
+          {box.left, box.bottom()}};
+}
+
+/// What a close-up shows, in the picture of all; labels lie over it.
+void draw_frame_of(Canvas& canvas, const View& close_up, const Stage& stage) {
+  const Rectangle& world = close_up.world();
+  const Pixel from = stage.view.to_pixel({world.min.x(), world.max.y()});
+  const Pixel to = stage.view.to_pixel({world.max.x(), world.min.y()});
+  canvas.outline(outline_of({from.x, from.y, to.x - from.x, to.y - from.y}),
+                 {stage.style.theme().muted_text, 0.8}, stage.style.length(1));
+}
+
 /// The 1-sigma ellipse of its error.
 void draw_ellipse(Canvas& canvas, const Stage& stage, const Detection& detection, const Ink& ink) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(detection.covariance);
@@ -135,14 +151,18 @@ void Picture::draw(const VideoFrame& frame, cv::Mat& image) {
     const Stage stage = stage_of(still_views_[i], layout_.close_ups[i]);
     Canvas part = canvas.within(layout_.panels[i]);
     draw_world(part, stage, frame, i);
+    std::vector<std::optional<View>> near_by;
+    for (std::size_t k = 0; k < options_.close_ups.size(); ++k) {
+      near_by.push_back(close_up_view(frame.truth, k, i));
+      if (near_by.back()) draw_frame_of(part, *near_by.back(), stage);
+    }
     write_labels(&part, stage, frame, i);
     if (panels_.size() > 1)
       draw_header(canvas, layout_.headers[i], scene_.panels[i], frame.panels[i],
                   style_.theme().track(static_cast<int>(i)), frame.panels[i].gospa == best, style_,
                   fonts_);
-    for (std::size_t k = 0; k < options_.close_ups.size(); ++k) {
-      const auto view = close_up_view(frame.truth, k, i);
-      if (view) draw_close_up(canvas, *view, frame, k, i);
+    for (std::size_t k = 0; k < near_by.size(); ++k) {
+      if (near_by[k]) draw_close_up(canvas, *near_by[k], frame, k, i);
     }
   }
   if (panels_.size() > 1)
@@ -215,24 +235,11 @@ std::optional<View> Picture::close_up_view(const TruthSnapshot& truth, std::size
 
 void Picture::draw_close_up(Canvas& canvas, const View& view, const VideoFrame& frame,
                             std::size_t close_up, std::size_t panel) {
-  const auto outline = [](const Viewport& box) {
-    return std::vector<Pixel>{{box.left, box.top},
-                              {box.right(), box.top},
-                              {box.right(), box.bottom()},
-                              {box.left, box.bottom()}};
-  };
-  const View& whole = still_views_[panel];
-  const Pixel from = whole.to_pixel({view.world().min.x(), view.world().max.y()});
-  const Pixel to = whole.to_pixel({view.world().max.x(), view.world().min.y()});
-  Canvas around = canvas.within(layout_.panels[panel]);
-  around.outline(outline({from.x, from.y, to.x - from.x, to.y - from.y}),
-                 {style_.theme().muted_text, 0.8}, style_.length(1));
-
   const Stage stage = stage_of(view, {});
   Canvas part = canvas.within(view.viewport());
   draw_backdrop(part, stage, AxisNumbers::kHidden);
   draw_world(part, stage, frame, panel);
-  canvas.outline(outline(view.viewport()), style_.theme().muted_text, style_.length(1.5));
+  canvas.outline(outline_of(view.viewport()), style_.theme().muted_text, style_.length(1.5));
   for (const ObjectInfo& object : scene_.objects) {
     if (object.id != options_.close_ups[close_up].target) continue;
     const std::u32string caption = drawable(object.name, 24) + U", near by";
