@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <ctime>
@@ -15,7 +16,10 @@ namespace {
 constexpr timespec kGrace = {.tv_sec = 0, .tv_nsec = 700'000'000};  // before the end by force
 constexpr timespec kTimeForOrder = {.tv_sec = 5, .tv_nsec = 0};     // once somebody puts in order
 
-volatile std::sig_atomic_t last_signal = 0;
+// Written by a handler and read by every thread, which takes an atomic that needs no lock.
+std::atomic<int> last_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
+
 timer_t last_call{};
 bool has_last_call = false;
 
@@ -25,7 +29,7 @@ void end_by_force(int signal) {
   constexpr std::string_view kFarewell = "ghtrack: interrupted\n";
   remove_all_scratch();
   [[maybe_unused]] const ssize_t said = ::write(STDERR_FILENO, kFarewell.data(), kFarewell.size());
-  ::_exit(128 + (last_signal != 0 ? static_cast<int>(last_signal) : signal));
+  ::_exit(128 + (last_signal != 0 ? last_signal.load() : signal));
 }
 
 void give(const timespec& time) {
@@ -71,13 +75,13 @@ void watch_signals() {
 
 std::optional<int> signal_received() {
   if (last_signal == 0) return std::nullopt;
-  return static_cast<int>(last_signal);
+  return last_signal.load();
 }
 
 void stop_if_interrupted() {
   if (last_signal == 0) return;
   give(kTimeForOrder);
-  throw Interrupted{.signal = static_cast<int>(last_signal)};
+  throw Interrupted{.signal = last_signal.load()};
 }
 
 }  // namespace ghtrack::cli
