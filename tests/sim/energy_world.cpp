@@ -127,11 +127,13 @@ std::vector<std::size_t> heaps(const WorldConfig& config, const TruthSnapshot& t
 }
 
 /// The largest velocity [m/s] or acceleration [m/s²] of a ball that rests: that stays where it is
-/// from the sample before to the one after with all that it hangs together with. A ball at the top
-/// of its hop, or one that another is about to push, is so slow at one sample only.
+/// from the sample before to the one after with all that it hangs together with, and is not struck
+/// in between: it may be back in its seat by then. A ball at the top of its hop, or one that
+/// another is about to push, is so slow at one sample only.
 double unrest(const WorldConfig& config, const TruthSnapshot& before, const TruthSnapshot& now,
-              const TruthSnapshot& after) {
-  constexpr double kStill = 1e-9;  // [m]
+              const TruthSnapshot& after, const std::vector<WorldEvent>& events) {
+  constexpr double kStill = 1e-9;   // [m]
+  constexpr double kStruck = 1e-3;  // change of velocity [m/s]
   const std::vector<std::size_t> heap = heaps(config, now);
   const std::size_t count = now.objects.size();
   if (before.objects.size() != count || after.objects.size() != count) return 0.0;
@@ -141,6 +143,14 @@ double unrest(const WorldConfig& config, const TruthSnapshot& before, const Trut
     const bool moves = (here - before.objects[k].position).norm() > kStill ||
                        (here - after.objects[k].position).norm() > kStill;
     if (moves) stands[heap[k]] = false;
+  }
+  for (const WorldEvent& event : events) {
+    if (event.time <= before.time || event.time >= after.time) continue;
+    const auto struck = static_cast<std::size_t>(event.object);
+    const auto& ball = std::get<ThrownBall>(config.targets[struck].motion);
+    if (event.impulse.norm() < kStruck * ball.mass) continue;
+    stands[heap[struck]] = false;
+    if (event.other >= 0) stands[heap[static_cast<std::size_t>(event.other)]] = false;
   }
   double most = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -171,7 +181,8 @@ double gap_around(const WorldConfig& config, const Environment& environment,
 
 EnergyRun run_energy_world(std::uint64_t seed) {
   const std::clock_t begin = std::clock();
-  const WorldConfig config = energy_world(seed);
+  WorldConfig config = energy_world(seed);
+  config.record.events = true;
   World world(config, seed);
   EnergyRun result;
   double least = 0.0;
@@ -194,7 +205,7 @@ EnergyRun run_energy_world(std::uint64_t seed) {
     least = std::min(least, energy);
   }
   for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
-    const double now = unrest(config, samples[i - 1], samples[i], samples[i + 1]);
+    const double now = unrest(config, samples[i - 1], samples[i], samples[i + 1], world.events());
     result.most_unrest = std::max(result.most_unrest, now);
   }
   result.collisions_missed = world.missed_collisions();
