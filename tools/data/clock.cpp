@@ -118,12 +118,15 @@ std::optional<int> take_month(Cursor& cursor) {
   return std::nullopt;
 }
 
+/// The year from 1970 to 2069 that two digits stand for.
+int full_year(int two_digits) { return two_digits + (two_digits < 70 ? 2000 : 1900); }
+
 /// A year of four digits, or of two.
 std::optional<int> take_year(Cursor& cursor) {
   if (const auto year = cursor.digits(4)) return year;
   const auto year = cursor.digits(2);
   if (!year) return std::nullopt;
-  return *year + (*year < 70 ? 2000 : 1900);
+  return full_year(*year);
 }
 
 /// 2024-06-11, 2024/06/11, 2024.06.11 or 20240611.
@@ -254,8 +257,7 @@ std::optional<std::int64_t> parse_date(std::string_view text, DateOrder order) {
     if (parts[2]) {
       const std::size_t year = order == DateOrder::kYearFirst ? 0 : 2;
       const std::size_t month = order == DateOrder::kMonthFirst ? 0 : 1;
-      const int full = *parts[year] + (*parts[year] < 70 ? 2000 : 1900);
-      return checked_days(full, *parts[month], *parts[3 - year - month]);
+      return checked_days(full_year(*parts[year]), *parts[month], *parts[3 - year - month]);
     }
     cursor = Cursor(text);
   }

@@ -121,6 +121,7 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
                     .rmse = {},
                     .rmse_without_guess = {}};
   const bool guess_is_first = scene.initial_guess == GuessAt::kFirstMeasurement;
+  const std::optional<double> ring = ring_of(scene);
   MeanSquare all;
   MeanSquare filtered;
   double innovations = 0.0;
@@ -163,7 +164,7 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
       ++used;
     }
     if (now.truth) {
-      const double error = error_of(row.x, *now.truth, ring_of(scene));
+      const double error = error_of(row.x, *now.truth, ring);
       all.add(error);
       if (!is_guess) filtered.add(error);
     }
@@ -192,6 +193,7 @@ SeriesResult run(const SeriesScene& scene) {
   const std::vector<SeriesMeasurement> measurements = std::visit(
       [&](const auto& series) { return measure(series, scene.dt, scene.seed); }, scene.data);
   SeriesResult result{.measurements = measurements, .tracks = {}, .measurement_rmse = {}};
+  const std::optional<double> ring = ring_of(scene);
   MeanSquare errors;
   const bool are_readings =  // no places
       std::holds_alternative<WalkSeries>(scene.data) ||
@@ -199,7 +201,7 @@ SeriesResult run(const SeriesScene& scene) {
                   [](const SeriesFilter& filter) { return !measures_state(filter.model); });
   for (const SeriesMeasurement& measurement : measurements) {
     const bool is_comparable = measurement.truth && !are_readings && !std::isnan(measurement.z);
-    if (is_comparable) errors.add(error_of(measurement.z, *measurement.truth, ring_of(scene)));
+    if (is_comparable) errors.add(error_of(measurement.z, *measurement.truth, ring));
   }
   result.measurement_rmse = errors.root();
   for (const SeriesFilter& filter : scene.filters) {
