@@ -14,8 +14,9 @@
 namespace ghtrack {
 namespace {
 
-constexpr std::size_t kFewestScans = 100;
-constexpr std::size_t kEnoughDetections = 20000;
+/// Enough to learn from: many scans of a few objects, or some of many.
+constexpr std::size_t kManyScans = 100, kSomeScans = 25;
+constexpr std::size_t kEnoughDetections = 20000, kManyDetections = 50000;
 constexpr int kMostMissing = 20;  // scans in a row
 
 std::vector<Scan> excerpt_of(const ScanSource& source) {
@@ -24,7 +25,8 @@ std::vector<Scan> excerpt_of(const ScanSource& source) {
   for (Scan scan; source.next(scan);) {
     detections += scan.detections.size();
     scans.push_back(std::move(scan));
-    if (scans.size() >= kFewestScans && detections >= kEnoughDetections) break;
+    if (scans.size() >= kManyScans && detections >= kEnoughDetections) break;
+    if (scans.size() >= kSomeScans && detections >= kManyDetections) break;
     scan = {};
   }
   return scans;
