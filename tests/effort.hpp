@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace ghtrack::testing {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -12,7 +14,9 @@ inline constexpr bool kSanitized = false;
 #endif
 
 /// The number of samples, a tenth of it in the slow builds that look for undefined behaviour and
-/// races.
-constexpr int samples(int usual) { return kSanitized ? usual / 10 : usual; }
+/// races; there at least as many as a statistic needs.
+constexpr int samples(int usual, int least = 1) {
+  return kSanitized ? std::max(usual / 10, least) : usual;
+}
 
 }  // namespace ghtrack::testing

@@ -431,31 +431,5 @@ TEST_F(Compare, StopsTuningWhenInterrupted) {
   EXPECT_THAT(names_in(folder()), ElementsAre("scene.yaml"));
 }
 
-/// The examples with which the help of a command ends.
-std::vector<std::string> examples_of(const std::string& command) {
-  const Outcome help = shell("ghtrack " + command + " --help", fs::temp_directory_path());
-  std::vector<std::string> examples;
-  std::istringstream text(help.out.substr(help.out.find("Examples:")));
-  for (std::string line; std::getline(text, line);) {
-    if (line.starts_with("  ") && line.find("ghtrack ") != std::string::npos) {
-      examples.push_back(line);
-    }
-  }
-  return examples;
-}
-
-// Property: the examples in the help work as typed in a clone.
-TEST_F(Compare, ShowsExamplesThatWork) {
-  fs::create_symlink(fs::path(GHTRACK_SOURCE_DIR) / "scenes", folder() / "scenes");
-  for (const char* command : {"compare", "tune", "check", "filter", "gains"}) {
-    const std::vector<std::string> examples = examples_of(command);
-    EXPECT_GE(examples.size(), 1U);
-    for (const std::string& example : examples) {
-      const Outcome outcome = run(example);
-      EXPECT_EQ(outcome.exit_code, 0) << example << "\n" << outcome.err;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace ghtrack::testing

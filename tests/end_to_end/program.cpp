@@ -7,8 +7,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
+
+#include "tests/effort.hpp"
 
 namespace ghtrack::testing {
 
@@ -35,6 +38,11 @@ Outcome shell(const std::string& command, const fs::path& folder) {
       std::system(line.c_str());  // NOLINT(cert-env33-c): tests run a shell on purpose
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {exit_code, contents(out), contents(err)};
+}
+
+std::string affordable(const std::string& example) {
+  static const std::regex runs("--runs [0-9]+");
+  return kSanitized ? std::regex_replace(example, runs, "--runs 5") : example;
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -16,6 +16,9 @@ struct Outcome {
 /// Runs a shell command in a folder, with `ghtrack` first on the PATH and without a display.
 Outcome shell(const std::string& command, const std::filesystem::path& folder);
 
+/// An example as it is typed; in the slow builds of the sanitizers with few of its runs.
+std::string affordable(const std::string& example);
+
 /// A fresh folder that is removed at the end.
 class TemporaryFolder {
  public:

@@ -57,7 +57,9 @@ TEST_P(Readme, EveryCommandItShowsSucceeds) {
   fs::create_symlink(fs::path(GHTRACK_SOURCE_DIR) / "scenes", folder.path() / "scenes");
   const std::string first = shown_commands().front().front();
   if (GetParam().front() != first) expect_success(first, folder.path());
-  for (const std::string& command : GetParam()) expect_success(command, folder.path());
+  for (const std::string& command : GetParam()) {
+    expect_success(affordable(command), folder.path());
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Block, Readme, ::testing::ValuesIn(shown_commands()),

@@ -194,7 +194,7 @@ TEST_P(HelpOf, ShowsExamplesThatWork) {
   for (const std::string& line : lines_of(help)) {
     is_example = (is_example || line == "Examples:") && !line.starts_with("With ");
     if (!is_example || !line.starts_with("  ")) continue;
-    const Outcome outcome = shell(line, folder());
+    const Outcome outcome = shell(affordable(line), folder());
     if (outcome.err.find("wasi-libc") != std::string::npos) {
       GTEST_SKIP() << "no compiler for WebAssembly";
     }

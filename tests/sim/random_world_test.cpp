@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/effort.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -9,7 +11,7 @@ namespace {
 // finite. Debian's Box2D aborts on NaN, on bodies of no size and on much else. The program
 // random_worlds tries as many as one likes.
 TEST(RandomWorld, NeverFails) {
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (int seed = 0; seed < testing::samples(300); ++seed) {
     SCOPED_TRACE(seed);
     EXPECT_TRUE(run_random_world(seed).finite);
   }

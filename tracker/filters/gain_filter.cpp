@@ -223,8 +223,7 @@ template <int D>
 bool GainFilter<D>::doubts(const Vector& residual, const AxisCovariance<Axes>& belief,
                            const Axes& variance) {
   constexpr int kMostInARow = 2;
-  if (!std::isfinite(design_->errors.huber) || updates_ <= design_->schedule.steady.order)
-    return false;
+  if (updates_ <= design_->schedule.steady.order) return false;
   const auto would_be_far = [&](const Vector& distance) {
     return (distance.array().square() / (belief.xx + variance)).sum() >
            design_->errors.huber * design_->errors.huber;
@@ -246,14 +245,16 @@ bool GainFilter<D>::update(const Vector& z, const Matrix& covariance) {
   if (!z.allFinite() || !is_variance(variance)) return refuse_measurement();
   const Vector residual = z - estimate_.position;
   if (design_->schedule.source == GainSource::kCovariance) {
-    return update_by(covariance_, z, variance, doubts(residual, covariance_, variance));
+    const bool doubtful = limits_residuals() && doubts(residual, covariance_, variance);
+    return update_by(covariance_, z, variance, doubtful);
   }
   // A second sensor at the same instant has no place in a table.
   const bool same_instant = updates_ > 0 && elapsed_ == 0.0;
   if (!design_->has_belief) {
     return same_instant ? update_by(covariance_, z, variance, false) : update_by_table(z, variance);
   }
-  const bool doubtful = doubts(residual, is_steady() ? settled_belief() : belief_, variance);
+  const bool doubtful =
+      limits_residuals() && doubts(residual, is_steady() ? settled_belief() : belief_, variance);
   if (same_instant || doubtful) leave_schedule();
   if (on_schedule_) return update_by_table(z, variance);
   if (!update_by(belief_, z, variance, doubtful)) return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -148,6 +149,7 @@ class GainFilter {
   Scheduled as_scheduled(const AxisGain<Axes>& gain) const;
   bool has_process_noise() const { return design_->errors.process_intensity > 0.0; }
   const AxisCovariance<Axes>& noise() const { return has_process_noise() ? noise_ : covariance_; }
+  bool limits_residuals() const { return std::isfinite(design_->errors.huber); }
   bool is_steady() const { return on_schedule_ && !starting_up_; }
   bool doubts(const Vector& residual, const AxisCovariance<Axes>& belief, const Axes& variance);
   AxisCovariance<Axes> settled_belief() const;

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/effort.hpp"
+
 namespace ghtrack {
 namespace {
 
@@ -57,7 +59,7 @@ TEST(OrderedWork, IsAsIfThereWereOneThread) {
   EXPECT_EQ(squares(5, 1, 3), "0 1 4 item 3");
   EXPECT_EQ(squares(5, 1, 4, 2), "0 1 delivery");
   for (const int jobs : {2, 3, 8}) {
-    for (int repeat = 0; repeat < 50; ++repeat) {
+    for (int repeat = 0; repeat < testing::samples(50); ++repeat) {
       EXPECT_EQ(squares(200, jobs, 999), squares(200, 1, 999));
       EXPECT_EQ(squares(200, jobs, 150), squares(200, 1, 150));
       EXPECT_EQ(squares(200, jobs, 120, 50), squares(200, 1, 120, 50));

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "scenes/schema/reader.hpp"
+#include "tests/effort.hpp"
 #include "tests/tools/experiment/sample_campaign.hpp"
 #include "tools/experiment/comparison.hpp"
 #include "tools/experiment/engine.hpp"
@@ -20,6 +21,7 @@ const char* const kSpeedsUp =
 /// Something followed by one filter of every kind.
 Comparison compared_sensors(const std::string& sensors, const std::string& motion = kSpeedsUp,
                             const std::string& tracker = "association: known", int runs = 40) {
+  runs = testing::samples(runs, 8);
   const std::string text = R"(
 name: predicted
 duration: 20
