@@ -35,7 +35,7 @@ class Encounter {
   Instant next(Instant& start);
   double longest_step(const Instant& now, const Heap& heap) const;
   Heap find_heap(const Instant& now);
-  void part(Instant& now) const;
+  void part(Instant& now);
 
   void exchange_impulses(Instant& now);
   std::vector<Pair> struck_at_once(const Instant& now,
@@ -103,10 +103,8 @@ Instant Encounter::next(Instant& start) {
     meeting_.lowest[i] = meeting_.lowest[i].cwiseMin(position);
     meeting_.highest[i] = meeting_.highest[i].cwiseMax(position);
   }
-  if (hit) {
-    part(then);
-    exchange_impulses(then);
-  }
+  part(then);
+  if (hit) exchange_impulses(then);
   return then;
 }
 
@@ -166,11 +164,12 @@ Heap Encounter::find_heap(const Instant& now) {
 
 /// Moves apart what overlaps by more than a touch, as where a path has jumped because its step
 /// was divided, or hits were passed over.
-void Encounter::part(Instant& now) const {
+void Encounter::part(Instant& now) {
   const auto overlaps = [&](const Pair& pair) {
     return crowd_.gap(now, pair).distance < -kTouching;
   };
   if (std::none_of(crowd_.pairs().begin(), crowd_.pairs().end(), overlaps)) return;
+  meeting_.touched = true;
   const Heap heap = touching(crowd_, now, std::numeric_limits<double>::infinity());
   const std::vector<FlightState> before = states_of(crowd_, now, heap);
   std::vector<FlightState> after = before;

@@ -33,7 +33,7 @@ double turning_acceleration(const FlightState& state, const Contact& contact) {
 }
 
 Touch touch_of(const FlightState& state, const RoundBody& body, const Surface& surface,
-               double turning) {
+               double turning, double slip_sign) {
   const Contact contact = surface.contact(state.position);
   Touch touch;
   touch.normal = contact.normal;
@@ -41,9 +41,8 @@ Touch touch_of(const FlightState& state, const RoundBody& body, const Surface& s
   touch.rolling = surface.rolling.value_or(body.rolling);
   touch.direction = turning;
   touch.normal_offset = turning_acceleration(state, contact);
-  const double slipping = slip(state, body, tangent_to(contact.normal));
-  touch.slip_offset = slipping / kSlipDecay;
-  touch.slip = noticeable(slipping);
+  touch.slip_offset = slip(state, body, tangent_to(contact.normal)) / kSlipDecay;
+  touch.slip = slip_sign;
   return touch;
 }
 
@@ -54,20 +53,22 @@ struct Cornered {
 };
 
 Cornered corner(const FlightState& state, const FlightRate& free, const RoundBody& body,
-                const std::vector<Surface>& surfaces, double turning) {
+                const std::vector<Surface>& surfaces, const Senses& senses) {
   std::vector<Pushed> one{{free.acceleration, free.spin, 1.0,
                            1.0 / (body.inertia * body.radius * body.radius), body.radius}};
   Cornered result;
-  for (const int index : {state.support, state.second_support}) {
-    result.touches.push_back(touch_of(state, body, surface_at(surfaces, index), turning));
-  }
+  const auto touch_on = [&](int index, double slip_sign) {
+    return touch_of(state, body, surface_at(surfaces, index), senses.turning, slip_sign);
+  };
+  result.touches = {touch_on(state.support, senses.slip[0]),
+                    touch_on(state.second_support, senses.slip[1])};
   solve_contacts(one, result.touches);
   result.rate = {one[0].rate, one[0].spin_rate};
   // Held from two sides it goes nowhere, not even by a rounding error.
   const bool held = std::all_of(result.touches.begin(), result.touches.end(),
                                 [](const Touch& touch) { return touch.push > 0.0; });
   if (held && state.velocity == Vec2::Zero()) result.rate.acceleration.setZero();
-  if (held && turning == 0.0 && std::abs(result.rate.spin) * body.radius < 1e-9) {
+  if (held && senses.turning == 0.0 && std::abs(result.rate.spin) * body.radius < 1e-9) {
     result.rate.spin = 0.0;
   }
   return result;
@@ -116,9 +117,19 @@ void keep_out(FlightState& state, const std::vector<Surface>& surfaces) {
 
 }  // namespace
 
+Senses senses_of(const FlightState& state, const RoundBody& body,
+                 const std::vector<Surface>& surfaces) {
+  const auto slip_on = [&](int index) {
+    if (index < 0) return 0.0;
+    const Contact contact = surface_at(surfaces, index).contact(state.position);
+    return portable::sign(noticeable(slip(state, body, tangent_to(contact.normal))));
+  };
+  return {portable::sign(state.spin), {slip_on(state.support), slip_on(state.second_support)}};
+}
+
 FlightRate supported_rate(const FlightState& state, const FlightRate& free, const RoundBody& body,
-                          const std::vector<Surface>& surfaces, double turning) {
-  if (state.second_support >= 0) return corner(state, free, body, surfaces, turning).rate;
+                          const std::vector<Surface>& surfaces, const Senses& senses) {
+  if (state.second_support >= 0) return corner(state, free, body, surfaces, senses).rate;
   const Surface& surface = surface_at(surfaces, state.support);
   const Contact contact = surface.contact(state.position);
   const Vec2& normal = contact.normal;
@@ -126,22 +137,21 @@ FlightRate supported_rate(const FlightState& state, const FlightRate& free, cons
   const double inwards = turning_acceleration(state, contact);
   const double pressure = std::max(0.0, -free.acceleration.dot(normal) - inwards);
   const double along = free.acceleration.dot(tangent);
-  const double rim = slip(state, body, tangent);
-  const double slipping = rim / kSlipDecay;
+  const double slipping = slip(state, body, tangent) / kSlipDecay;
   const double grip = surface.friction.value_or(body.friction) * pressure;
   const double rolling = surface.rolling.value_or(body.rolling);
   const double couple = rolling * pressure / (body.inertia * body.radius);  // [rad/s²]
   double spin = free.spin;
-  if (rolling > 0.0 && turning == 0.0) {
-    const double held = dissipative(-(along + slipping), grip, noticeable(rim));
+  if (rolling > 0.0 && senses.turning == 0.0) {
+    const double held = dissipative(-(along + slipping), grip, senses.slip[0]);
     const double torque = free.spin + held / (body.inertia * body.radius);
     if (std::abs(torque) <= couple) return {(along + held) * tangent - inwards * normal, 0.0};
     spin -= portable::sign(torque) * couple;
   } else if (rolling > 0.0) {
-    spin -= turning * couple;
+    spin -= senses.turning * couple;
   }
   const double friction = dissipative(
-      -(along + spin * body.radius + slipping) / (1.0 + 1.0 / body.inertia), grip, noticeable(rim));
+      -(along + spin * body.radius + slipping) / (1.0 + 1.0 / body.inertia), grip, senses.slip[0]);
   return {(along + friction) * tangent - inwards * normal,
           spin + friction / (body.inertia * body.radius)};
 }
@@ -169,7 +179,7 @@ void leave_supports(FlightState& state, const FlightRate& free, const RoundBody&
   if (state.second_support >= 0 && left(state.second_support)) forget_second(state);
   if (state.support >= 0 && left(state.support)) forget_first(state);
   if (state.second_support >= 0) {
-    const Cornered cornered = corner(state, free, body, surfaces, portable::sign(state.spin));
+    const Cornered cornered = corner(state, free, body, surfaces, senses_of(state, body, surfaces));
     const bool first_presses = cornered.touches[0].push > 0.0;
     const bool second_presses = cornered.touches[1].push > 0.0;
     if (!second_presses) forget_second(state);
@@ -234,8 +244,8 @@ void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
   still.velocity.setZero();
   // Where nothing is rough it may spin on.
   if (std::abs(state.spin) * body.radius < kAtRest) still.spin = 0.0;
-  const double turning = portable::sign(still.spin);
-  const FlightRate rate = supported_rate(still, free, body, surfaces, turning);
+  const FlightRate rate =
+      supported_rate(still, free, body, surfaces, senses_of(still, body, surfaces));
   const double most = 1e-9;  // [m/s²]
   if (rate.acceleration.norm() < most && std::abs(rate.spin) * body.radius < most) state = still;
 }
@@ -250,7 +260,9 @@ bool changes_on_supports(const FlightState& before, const FlightState& after, co
     }
     if (surface.rolling.value_or(body.rolling) > 0.0 && before.spin * after.spin < 0.0) return true;
   }
-  return false;
+  const std::array<double, 2> first = senses_of(before, body, surfaces).slip;
+  const std::array<double, 2> last = senses_of(after, body, surfaces).slip;
+  return first[0] * last[0] < 0.0 || first[1] * last[1] < 0.0;
 }
 
 namespace {
@@ -310,7 +322,7 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
     // What it rests on may press it against a wall that it would fall away from.
     const FlightRate rate =
         state.support >= 0 && !is_support(index)
-            ? supported_rate(state, free, body, surfaces, portable::sign(state.spin))
+            ? supported_rate(state, free, body, surfaces, senses_of(state, body, surfaces))
             : free;
     const double pressing =
         -rate.acceleration.dot(contact.normal) - turning_acceleration(state, contact);
@@ -377,7 +389,7 @@ PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
   FlightState now = state;
   if (now.support >= 0) leave_supports(now, free, body, surfaces);
   if (now.support < 0) return {now.position, now.velocity, free.acceleration};
-  const FlightRate rate = supported_rate(now, free, body, surfaces, portable::sign(now.spin));
+  const FlightRate rate = supported_rate(now, free, body, surfaces, senses_of(now, body, surfaces));
   return {now.position, now.velocity, rate.acceleration};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -51,12 +52,20 @@ inline constexpr double kLeastBounce = 0.01;
 /// Two bodies closer than this touch [m].
 inline constexpr double kTouching = 1e-9;
 
+/// The senses in which a body on surfaces turns and slips during a step: so long its equations of
+/// motion are smooth.
+struct Senses {
+  double turning = 0.0;             // sign of the spin; 0: it does not turn, and may be held so
+  std::array<double, 2> slip = {};  // signs of its slip on the supports; 0: sticks, or rolls
+};
+Senses senses_of(const FlightState& state, const RoundBody& body,
+                 const std::vector<Surface>& surfaces);
+
 /// The rates of a body that surfaces support: the normal part of the acceleration is taken up,
 /// Coulomb friction acts along the surface until the body rolls, and rolling resistance c holds
 /// against its turning with a couple of up to c × radius × force.
-/// @param turning  sign of the spin during the step; 0: it does not turn, and may be held so
 FlightRate supported_rate(const FlightState& state, const FlightRate& free, const RoundBody& body,
-                          const std::vector<Surface>& surfaces, double turning);
+                          const std::vector<Surface>& surfaces, const Senses& senses);
 
 /// Rests a body on the surfaces that it touches and does not leave or approach.
 void find_supports(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces);
@@ -86,7 +95,8 @@ void keep_energy(const FlightState& before, FlightState& after, const FlightRate
                  const FlightRate& free_after, const RoundBody& body);
 
 /// Whether the equations of motion change between two states on the same supports: a rolling body
-/// comes to rest, or it passes the end of a face.
+/// comes to rest, a sliding one comes to roll or to slide the other way, as where a slope draws it
+/// on while its rim is slower, or it passes the end of a face.
 bool changes_on_supports(const FlightState& before, const FlightState& after, const RoundBody& body,
                          const std::vector<Surface>& surfaces);
 
@@ -236,11 +246,11 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
   int changes = 0;
   for (int impacts = 0; time < to;) {
     if (state.support >= 0) leave_supports(state, rates(state, time), body, surfaces);
-    const double turning = portable::sign(state.spin);
+    const Senses senses = senses_of(state, body, surfaces);
     const auto rates_here = [&](const FlightState& s, double t) {
       const FlightRate free = rates(s, t);
       if (s.support < 0) return free;
-      return supported_rate(s, free, body, surfaces, turning);
+      return supported_rate(s, free, body, surfaces, senses);
     };
     const auto after = [&](double part) { return runge_kutta(state, time, part, rates_here); };
     double step = to - time;
@@ -262,7 +272,7 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
       const double began = time;
       state = next;
       time = step == to - time ? to : time + step;
-      if (state.support >= 0 && settle_on_supports(state, body, surfaces, turning)) {
+      if (state.support >= 0 && settle_on_supports(state, body, surfaces, senses.turning)) {
         keep_energy(before, state, rates(before, began), rates(state, time), body);
       }
       if (state.support >= 0 && is_nearly_at_rest(state)) {

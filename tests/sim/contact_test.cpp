@@ -377,6 +377,37 @@ TEST(Contact, StopsByRollingResistance) {
   EXPECT_EQ(state.acceleration, Vec2::Zero());
 }
 
+// Property: a ball whose rim is too fast for it, as after a throw with topspin, is pushed down a
+// slope by friction, and held back once it rolls; its velocity does not jump where that changes,
+// after whatever part of a step one asks for it: gravity and friction allow g (1 + μ). What a step
+// over the bend of the friction leaves between the velocity and the path is millimetres a second.
+TEST(Contact, ComesToRollOnASlopeWithoutAJump) {
+  for (const double rolling : {0.0, 0.02}) {
+    const Vec2 normal = Vec2(0.25, 1.0).normalized();
+    ThrownBall ball = plain_ball(0.1 * normal, Vec2::Zero());
+    ball.radius = 0.1;
+    ball.friction = 0.5;
+    ball.restitution = 0.0;
+    ball.rolling = rolling;
+    ball.spin = -3.0;
+    WorldConfig config = world_of({target_of(ball)});
+    config.physics.rate = 60.0;
+    config.environment.air.density = 0.0;
+    config.environment.walls = {Wall{Vec2(-4.0, 1.0), Vec2(4.0, -1.0)}};
+    World world(config, 1);
+    constexpr double kInstant = 1e-4;
+    TruthState before = state_at(world, 0.0);
+    for (int i = 1; i < 5000; ++i) {
+      const TruthState now = state_at(world, kInstant * i);
+      const double most = 1.5 * kStandardGravity * kInstant;
+      ASSERT_LT((now.velocity - before.velocity).norm(), most) << i;
+      const Vec2 way = 0.5 * kInstant * (now.velocity + before.velocity);
+      ASSERT_LT((now.position - before.position - way).norm(), 5e-3 * kInstant) << i;
+      before = now;
+    }
+  }
+}
+
 // Property: the wind rolls a ball over concrete, and not for ever over grass.
 TEST(Contact, LetsGrassStopABallInTheWind) {
   ThrownBall ball;
@@ -544,7 +575,8 @@ TEST(Contact, FollowsABallThatRattlesInAGap) {
 // acceleration, and who has none touches something. The program energy_worlds tries as many as one
 // likes.
 TEST(Contact, NeverGainsEnergy) {
-  std::vector<std::uint64_t> seeds{2000002, 2000135, 2000456, 2000457, 7000108};  // failed once
+  std::vector<std::uint64_t> seeds{1142,    2000002, 2000135,
+                                   2000456, 2000457, 7000108};  // failed once
   for (int seed = 0; seed < testing::samples(24); ++seed) seeds.push_back(seed);
   for (const std::uint64_t seed : seeds) {
     const EnergyRun run = run_energy_world(seed);
