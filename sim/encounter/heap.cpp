@@ -13,6 +13,7 @@ namespace {
 constexpr double kSlipDecay = 0.02;  // time in which the last slip of a rolling body dies [s]
 constexpr double kCreep = 1e-3;      // slower slip in a heap is sticking that has not settled [m/s]
 constexpr double kAtRest = 1e-7;     // slower than this, and held, a body rests [m/s]
+constexpr double kTurning = 1e-6;    // and does not turn if its rim is slower than this [m/s]
 constexpr double kHeld = 1e-6;       // a smaller acceleration is a rounding error [m/s²]
 
 }  // namespace
@@ -327,15 +328,27 @@ Heap move_heap(const Crowd& crowd, const Instant& start, Instant& end, Heap heap
 void note_leaning(const Crowd& crowd, Instant& now, Heap heap) {
   if (heap.bodies.empty()) return;
   const std::vector<FlightRate> rate = rates(crowd, now, heap);
+  // Whether they are held is asked as if they stood: the last slip takes long to die out.
+  std::vector<FlightState> still = states_of(crowd, now, heap);
+  std::vector<bool> is_slow(still.size());
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    is_slow[i] = still[i].velocity.norm() <= kAtRest;
+    if (!is_slow[i]) continue;
+    still[i].velocity.setZero();
+    // Where nothing is rough it may spin on.
+    if (std::abs(still[i].spin) * crowd.round(heap.bodies[i]).radius <= kTurning) {
+      still[i].spin = heap.turning[i] = 0.0;
+    }
+  }
+  const bool any_is_slow = std::find(is_slow.begin(), is_slow.end(), true) != is_slow.end();
+  const std::vector<FlightRate> standing =
+      any_is_slow ? rates(crowd, still, heap, now.time, now.passing) : rate;
   for (std::size_t i = 0; i < heap.bodies.size(); ++i) {
     FlightState& state = *crowd.flight(now, heap.bodies[i]);
+    const bool rests = is_slow[i] && is_held(crowd, heap.bodies[i], standing[i]);
+    if (rests) state = still[i];
     state.leans = true;
-    state.leaning_acceleration = rate[i].acceleration;
-    if (state.velocity.norm() > kAtRest || !is_held(crowd, heap.bodies[i], rate[i])) continue;
-    state.velocity.setZero();
-    state.leaning_acceleration.setZero();
-    // Where nothing is rough it may spin on.
-    if (std::abs(state.spin) * crowd.round(heap.bodies[i]).radius <= kAtRest) state.spin = 0.0;
+    state.leaning_acceleration = rests ? Vec2::Zero() : rate[i].acceleration;
   }
 }
 
