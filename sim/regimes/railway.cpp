@@ -257,7 +257,8 @@ double TrackMotion::end_of_step(double time, double to) const {
 }
 
 /// Whether the equations of motion have changed on the way: a car has come to a stand, the first
-/// reaches the place of the next phase, or buffers touch or part.
+/// reaches the place of the next phase, buffers touch or part, or couplings come to an end of their
+/// play.
 bool TrackMotion::reaches_event(const States& after) const {
   for (std::size_t i = 0; i < trains_.size(); ++i) {
     if (model(i).touches_or_parts(now_[i], after[i])) return true;
@@ -267,7 +268,10 @@ bool TrackMotion::reaches_event(const States& after) const {
     if (after[i].speed[0] * now_[i].speed[0] < 0.0 && model(i).masses_.size() == 1) return true;
   }
   return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-    return !pair.coupled && (gap(now_, pair) > 0.0) != (gap(after, pair) > 0.0);
+    const double first = gap(now_, pair);
+    const double last = gap(after, pair);
+    return pair.coupled ? pair.buffers.reaches_end_of_play(first, last)
+                        : (first > 0.0) != (last > 0.0);
   });
 }
 

@@ -34,6 +34,11 @@ double Couplers::pull(double stretch, double parting) const {
   return beyond > 0.0 ? stiffness * std::copysign(beyond, stretch) + damping * parting : 0.0;
 }
 
+bool Couplers::reaches_end_of_play(double before, double after) const {
+  const auto bears = [this](double stretch) { return portable::sign(pull(stretch, 0.0)); };
+  return slack > 0.0 && bears(before) != bears(after);
+}
+
 double Couplers::press(double stretch, double parting) const {
   return stretch < 0.0 ? std::min(0.0, stiffness * stretch + damping * parting) : 0.0;
 }
@@ -540,11 +545,22 @@ std::optional<double> TrainModel::coupler_force(const State& state, int object) 
   return std::nullopt;
 }
 
-/// Whether buffers touch or part between two states.
+/// Whether buffers touch or part between two states, or couplings come to an end of their play.
 bool TrainModel::touches_or_parts(const State& before, const State& after) const {
+  for (const Group& group : groups_) {
+    for (std::size_t i = group.begin + 1; i < group.end; ++i) {
+      const auto stretch = [&](const State& state) {
+        return state.place[i - 1] - state.place[i] - train_.car_length;
+      };
+      if (train_.couplers->reaches_end_of_play(stretch(before), stretch(after))) return true;
+    }
+  }
   for (std::size_t i = 0; i < meetings_.size(); ++i) {
-    if (before.joined[i]) continue;
-    if ((gap(before, meetings_[i]) > 0.0) != (gap(after, meetings_[i]) > 0.0)) return true;
+    const double first = gap(before, meetings_[i]);
+    const double last = gap(after, meetings_[i]);
+    const bool changes = before.joined[i] ? train_.couplers->reaches_end_of_play(first, last)
+                                          : (first > 0.0) != (last > 0.0);
+    if (changes) return true;
   }
   return train_.buffer_stop && (pressed(before) > 0.0) != (pressed(after) > 0.0);
 }

@@ -94,7 +94,10 @@ struct Couplers {
   /// @param stretch  beyond its length [m]
   /// @param parting  speed at which it grows [m/s]
   double pull(double stretch, double parting) const;
-  /// The same of buffers that are not coupled: they only press.
+  /// Whether it comes to the end of its play, or leaves it, between two stretches [m]: its force
+  /// bends there.
+  bool reaches_end_of_play(double before, double after) const;
+  /// What buffers that are not coupled do: they only press.
   double press(double stretch, double parting) const;
 
   template <class Visitor>

@@ -49,6 +49,50 @@ TEST(Shunting, CouplesByMomentum) {
   EXPECT_NEAR(truth.objects[2].position.x() - truth.objects[4].position.x(), 20.0, 1e-3);
 }
 
+// Derived: undamped couplings with play keep momentum and the energy of motion and springs, whether
+// the cars that they catch are of the train or another target: the springs bear from the end of the
+// play on.
+TEST(Shunting, KeepsTheEnergyOfCouplingsWithPlay) {
+  const double stiffness = 1e7;
+  for (const double slack : {0.005, 0.02}) {
+    Train train = free_train(3, 75e3, 2.0);
+    train.couplers = Couplers{stiffness, 0.0, slack};
+    Train alone = train;
+    train.ahead = {CarsAhead{22.0, 2, 20e3, 0.0, true}};
+    Train other = free_train(2, 40e3, 0.0);
+    other.couplers = train.couplers;
+    other.start = 32.0;
+    for (const std::vector<Target>& targets :
+         {std::vector{target_of(train)}, std::vector{target_of(alone), target_of(other)}}) {
+      World world(world_of(targets), 1);
+      const std::vector<double> masses{25e3, 25e3, 25e3, 20e3, 20e3};
+      const double begun = kinetic_energy(world.sample(0.0), masses);
+      double least = begun;
+      bool coupled = false;
+      for (int i = 1; i <= 1000; ++i) {
+        const TruthSnapshot truth = world.sample(0.02 * i);
+        const auto spring = [&](std::size_t ahead, std::size_t behind) {
+          const double stretch =
+              truth.objects[ahead].position.x() - truth.objects[behind].position.x() - 10.0;
+          coupled = coupled || (ahead == 4 && stretch <= 0.0);
+          if (ahead == 4 && !coupled) return 0.0;
+          const double beyond = std::max(0.0, std::abs(stretch) - slack);
+          return 0.5 * stiffness * beyond * beyond;
+        };
+        const double energy = kinetic_energy(truth, masses) + spring(0, 1) + spring(1, 2) +
+                              spring(3, 4) + spring(4, 0);
+        double momentum = 0.0;
+        for (std::size_t k = 0; k < 5; ++k) momentum += masses[k] * truth.objects[k].velocity.x();
+        ASSERT_NEAR(momentum, 150e3, 1e-6) << slack << ' ' << i;
+        ASSERT_LT(energy, least + 1e-6 * begun) << slack << ' ' << i;
+        least = std::min(least, energy);
+      }
+      EXPECT_GT(least, (1.0 - 1e-3) * begun) << slack;  // what the steps' error takes
+      EXPECT_TRUE(coupled);
+    }
+  }
+}
+
 // Derived: without damping and couplings, buffers give all back: v₁' = (m₁ − m₂)/(m₁ + m₂) v and
 // v₂' = 2 m₁/(m₁ + m₂) v, after a contact of π √(μ/k) with μ = m₁ m₂/(m₁ + m₂).
 TEST(Shunting, BuffersElastically) {
