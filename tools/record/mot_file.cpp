@@ -158,6 +158,38 @@ bool is_header(const std::vector<std::string_view>& fields) {
   return fields.size() >= kFewestFields && says(0, "rame") && (says(2, "eft") || says(2, "x"));
 }
 
+/// Splits a line into fields; also at blanks where there is nothing else between numbers, and
+/// without empty fields at the end, as some detectors write them.
+void split_mot_fields(std::string_view line, std::vector<std::string_view>& fields,
+                      std::vector<std::string>& owned) {
+  split_fields(line, fields, owned);
+  if (fields.size() == 1) {
+    constexpr std::string_view kBlanks = " \t";
+    std::string_view rest = fields.front();
+    fields.clear();
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find_first_of(kBlanks), rest.size());
+      fields.push_back(rest.substr(0, end));
+      rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks, end), rest.size()));
+    }
+  }
+  while (fields.size() > kFewestFields && fields.back().empty()) fields.pop_back();
+}
+
+/// Whether fields between blanks are a row of a box and not of numbers of any kind: frame and
+/// identity are whole, width and height above 0.
+bool looks_like_box(const std::vector<std::string_view>& fields) {
+  if (fields.size() < kFewestFields || fields.size() > kMostFields) return false;
+  std::array<double, kMostFields> values{};
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto value = parse_number(fields[i]);
+    if (!value) return false;
+    values[i] = *value;
+  }
+  return as_whole(values[0]) && values[0] >= 1.0 && as_whole(values[1]) && values[1] >= -1.0 &&
+         values[4] > 0.0 && values[5] > 0.0;
+}
+
 /// Understands the lines of a file, the first of which may be a header.
 class MotParser {
  public:
@@ -171,7 +203,11 @@ class MotParser {
       if (const auto row = row_of(values, count, rules_)) return row;
     }
     if (is_blank_or_comment(line)) return std::nullopt;
-    split_fields(line, fields_, owned_);
+    if (named_) {
+      split_fields(line, fields_, owned_);
+    } else {
+      split_mot_fields(line, fields_, owned_);
+    }
     if (named_ && fields_.size() == named_->named && BoxFields::find(fields_)) return std::nullopt;
     if (first_ == 0) first_ = number;
     if (number == first_) {
@@ -309,9 +345,14 @@ bool looks_like_mot_file(const std::filesystem::path& path) {
   std::vector<std::string_view> fields;
   std::vector<std::string> owned;
   split_fields(text, fields, owned);
-  return BoxFields::find(fields) || is_header(fields) ||
-         (fields.size() >= kFewestFields && parse_number(fields.front())) ||
-         looks_like_kitti_file(path);
+  if (BoxFields::find(fields) || is_header(fields) ||
+      (fields.size() >= kFewestFields && parse_number(fields.front())) ||
+      looks_like_kitti_file(path)) {
+    return true;
+  }
+  if (fields.size() > 1) return false;
+  split_mot_fields(text, fields, owned);
+  return looks_like_box(fields);
 }
 
 void append_mot_row(std::string& text, const MotRow& row) {

@@ -41,7 +41,8 @@ BoxSource frames_of(std::span<const MotRow> rows);
 
 /// Reads a MOTChallenge text file frame by frame: rows
 /// `frame,id,left,top,width,height[,conf[,x,y,z]]` or, for ground truth,
-/// `…,flag,category,visibility`, separated by commas with or without blanks, or by tabs. Below a
+/// `…,flag,category,visibility`, separated by commas with or without blanks, by semicolons, tabs or
+/// blanks; empty fields at the end are none. Below a
 /// header row with names, the columns are known by these (BoxFields), in any order and among
 /// others, and frames may count from 0. Empty lines are skipped. The rows of a frame have the
 /// file's order. Labels of KITTI are read as well.
@@ -83,7 +84,8 @@ std::vector<MotRow> read_mot_file(const std::filesystem::path& path, MotKind kin
 
 /// Whether a file looks like a MOTChallenge file and not like a table of points: its first line has
 /// at least six fields, of numbers or of the names `frame,id,…left,…`, or it names those of a
-/// box; or it looks like labels of KITTI. An unreadable or empty file does not.
+/// box; or it has the numbers of a box between blanks; or it looks like labels of KITTI. An
+/// unreadable or empty file does not.
 bool looks_like_mot_file(const std::filesystem::path& path);
 
 /// Appends `frame,id,left,top,width,height,confidence,-1,-1,-1`. Coordinates have two decimals, as

@@ -272,6 +272,29 @@ TEST(MotFile, IsToldFromCsvByItsFirstLine) {
   EXPECT_FALSE(looks_like_mot_file(folder.path()));
 }
 
+// Property: however detectors separate the numbers of a box, and whatever they leave out behind it,
+// it is the same box; numbers of another kind between blanks are none.
+TEST(MotFile, ReadsWhatDetectorsWrite) {
+  const ScratchFolder folder;
+  for (const char* text :
+       {"1,-1,10,20,30,40\n", "1,-1,10,20,30,40,\n", "1,-1,10,20,30,40,1,-1,-1,-1,\n",
+        "1,-1,10,20,30,40,,,,\n", "1 -1 10 20 30 40\n", "1 -1 10 20 30 40 1\n",
+        "1  -1  10  20  30  40  1  -1 -1 -1 \r\n", "1\t-1\t10\t20\t30\t40\n",
+        "1;-1;10;20;30;40;1\n"}) {
+    SCOPED_TRACE(text);
+    EXPECT_TRUE(looks_like_mot_file(folder.write("a", text)));
+    const auto rows = rows_of(text, MotKind::kDetections);
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].left, 10.0);
+    EXPECT_EQ(rows[0].height, 40.0);
+    EXPECT_EQ(rows[0].confidence, 1.0);
+  }
+  for (const char* text : {"1305031098.6659 1.5 2.5 1.6 0 0 0 1\n", "0 0.5 0.5 0.05 0.1 0.9\n",
+                           "0 100 200 140 290 0 0 0 0 \"Pedestrian\"\n", "1 2 3 4 5\n"}) {
+    EXPECT_FALSE(looks_like_mot_file(folder.write("a", text))) << text;
+  }
+}
+
 // Derived: the file as the format's instructions show it.
 TEST(SequenceInfo, ReadsTheSequenceSection) {
   const ScratchFolder folder;
