@@ -129,6 +129,7 @@ std::string_view take_quoted(std::string_view& rest, std::vector<std::string>& o
 
 constexpr std::array<char, 4> kMarks = {';', '\t', '|', ','};  // that separate, but for blanks
 constexpr std::size_t kMostTitles = 4;                         // or it is one column
+constexpr std::size_t kFewestRows = 6;                         // below more of them
 
 /// The mark that every line has, each as often; none if there is no such, or fewer than two lines.
 std::optional<char> agreed_mark(std::span<const std::string> lines) {
@@ -185,17 +186,20 @@ std::optional<char> find_separator(std::span<const std::string> lines) {
   }
   const bool has_blanks = separates(first, ' ');
   if (has_blanks && are_blanks_with_decimal_commas(lines.subspan(1))) return ' ';
-  for (std::size_t i = 1; i < std::min(lines.size(), kMostTitles); ++i) {
-    if (has_blanks) {  // a title such as "mass A" if all lines below it agree
+  if (has_blanks) {  // a title such as "mass A" if all lines below it, and others, agree
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      if (i >= kMostTitles && lines.size() - i < kFewestRows) break;
       if (const auto mark = agreed_mark(lines.subspan(i))) return mark;
-      continue;
     }
+    return ' ';
+  }
+  for (std::size_t i = 1; i < std::min(lines.size(), kMostTitles); ++i) {
     const std::string_view line = trimmed(lines[i]);
     for (const char mark : kMarks) {
       if (separates(line, mark) && !(mark == ',' && has_decimal_comma(line))) return mark;
     }
   }
-  return has_blanks ? std::optional(' ') : std::nullopt;
+  return std::nullopt;
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
   if (!degrees_) {
     x_scale_ = scale_of(table, x_);
     y_scale_ = scale_of(table, y_);
+    zone_ = GridZone::find(table);
   }
   const ColumnMap& columns = table.columns();
   const auto both = columns.find(Role::kSigma);
@@ -50,7 +51,8 @@ std::optional<Fix> FixColumns::read(Table& table) {
   return table.is_rejected() ? std::nullopt : std::optional(fix);
 }
 
-std::optional<Eigen::Vector2d> FixColumns::plane(Table& table) const {
+std::optional<Eigen::Vector2d> FixColumns::plane(Table& table) {
+  if (zone_) zone_->check(table);
   const auto x = table.number_or_missing(x_), y = table.number_or_missing(y_);
   if (!x || !y) return std::nullopt;
   return Eigen::Vector2d(x_scale_(*x), y_scale_(*y));
@@ -81,6 +83,7 @@ std::string FixColumns::describe(const Table& table) const {
                         name(x_), name(y_));
   }
   if (has_sigma()) text += ", sigma from " + name(*sigma_x_);
+  if (table.side_by_side()) text += "; " + table.side_by_side()->describe();
   return text;
 }
 

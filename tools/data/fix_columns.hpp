@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tools/data/geographic_columns.hpp"
+#include "tools/data/grid_zone.hpp"
 #include "tools/data/table.hpp"
 #include "tools/data/time_column.hpp"
 
@@ -40,11 +41,12 @@ class FixColumns {
   const TimeColumn& time() const { return time_; }
 
  private:
-  std::optional<Eigen::Vector2d> plane(Table& table) const;
+  std::optional<Eigen::Vector2d> plane(Table& table);
 
   TimeColumn time_;
   std::optional<GeographicColumns> degrees_;
   std::size_t x_ = 0, y_ = 0;  // without degrees
+  std::optional<GridZone> zone_;
   std::optional<std::size_t> sigma_x_, sigma_y_;
   Scale x_scale_, y_scale_, sigma_x_scale_, sigma_y_scale_;
 };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tools/data/clock.hpp"
+#include "tools/data/nmea.hpp"
 #include "tools/record/errors.hpp"
 #include "tools/record/output_name.hpp"
 #include "tools/record/text_file.hpp"
@@ -187,15 +188,20 @@ std::string geojson_as_csv(const std::string& path) {
   }
 }
 
-/// Whether a file's first line is a message of BaseStation: `MSG,3,1,1,4CA2D6,…`.
-bool is_base_station_file(const std::string& path) {
+/// The first characters of a file; empty if there is none.
+std::string start_of(const std::string& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};
   std::ifstream file(path, std::ios::binary);
-  std::array<char, 4> start{};
+  std::array<char, 8> start{};
   file.read(start.data(), start.size());
-  const std::string_view read(start.data(), static_cast<std::size_t>(file.gcount()));
-  return read == "MSG," || read == "SEL," || read == "AIR," || read == "STA,";
+  return {start.data(), static_cast<std::size_t>(file.gcount())};
+}
+
+/// Whether a file's first line is a message of BaseStation: `MSG,3,1,1,4CA2D6,…`.
+bool is_base_station(std::string_view start) {
+  return start.starts_with("MSG,") || start.starts_with("SEL,") || start.starts_with("AIR,") ||
+         start.starts_with("STA,");
 }
 
 /// Messages of BaseStation (SBS-1), 22 fields between commas: those that have a position, when they
@@ -224,13 +230,43 @@ std::string base_station_as_csv(const std::string& path) {
   return rows.take();
 }
 
+/// Sentences of NMEA 0183: those of one kind, RMC if there are any since they have the date, else
+/// GGA or GLL. A sentence of a receiver that does not know its place is a row without one.
+std::string nmea_as_csv(const std::string& path) {
+  std::array<Rows, 3> rows;
+  constexpr std::array<std::string_view, 3> kKinds = {"RMC", "GGA", "GLL"};
+  std::array<bool, 3> has_places{};
+  TextInput lines(path);
+  for (auto line = lines.next(); line; line = lines.next()) {
+    const auto fix = parse_nmea(*line);
+    if (!fix) continue;
+    const auto kind = static_cast<std::size_t>(std::find(kKinds.begin(), kKinds.end(), fix->kind) -
+                                               kKinds.begin());
+    std::string place = ",";
+    if (fix->place) place = fmt::format("{},{}", fix->place->latitude, fix->place->longitude);
+    has_places[kind] = has_places[kind] || fix->place;
+    rows[kind].add(static_cast<std::size_t>(lines.line_number()),
+                   fmt::format("{},{},1\n", fix->fault.value_or(fix->time), place));
+  }
+  const auto found = std::find(has_places.begin(), has_places.end(), true);
+  if (found != has_places.end()) {
+    return rows[static_cast<std::size_t>(found - has_places.begin())].take();
+  }
+  throw InputError(
+      path +
+      ": error: none of the sentences RMC, GGA and GLL of NMEA 0183 has a place; those "
+      "of AIS (!AIVDM) are for gpsdecode of gpsd to turn into JSON");
+}
+
 }  // namespace
 
 std::optional<std::string> points_as_csv(const std::string& path) {
   const std::string ending = lower_extension(path);
   if (ending == ".gpx") return gpx_as_csv(path);
   if (ending == ".geojson" || ending == ".json") return geojson_as_csv(path);
-  if (is_base_station_file(path)) return base_station_as_csv(path);
+  const std::string start = start_of(path);
+  if (is_base_station(start)) return base_station_as_csv(path);
+  if (is_nmea(start)) return nmea_as_csv(path);
   return std::nullopt;
 }
 

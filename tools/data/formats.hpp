@@ -9,8 +9,9 @@
 
 namespace ghtrack {
 
-/// Files of points that are no tables: GPX 1.1 tracks (.gpx), GeoJSON (.geojson, .json), and what a
-/// receiver of ADS-B writes in the format of BaseStation, known by its first line.
+/// Files of points that are no tables: GPX 1.1 tracks (.gpx), GeoJSON (.geojson, .json), and, known
+/// by their first line, what a receiver of ADS-B writes in the format of BaseStation and what one
+/// of GPS writes as sentences of NMEA 0183.
 ///
 /// @return the same as CSV with the columns time, lat, lon and track_id, each row as many lines
 /// below the header as it was from the top of the file, where that has lines; absent if the file is

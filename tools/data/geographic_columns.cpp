@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/data/nmea.hpp"
 #include "tools/data/time_column.hpp"
 
 namespace ghtrack {
@@ -51,6 +52,27 @@ bool have_parts_of_degrees(const Table& table, std::size_t longitude, std::size_
          std::max(std::abs(*first), std::abs(*second)) > kLeast;
 }
 
+/// Whether two columns have degrees and minutes in one number, as NMEA 0183 writes them: the
+/// heading says so, or there are sides beside, and as many digits as only these have.
+bool have_minutes(const Table& table, std::size_t longitude, std::size_t latitude, bool has_sides) {
+  for (const std::size_t column : {longitude, latitude}) {
+    std::string said = table.headings()[column].text;
+    std::erase(said, ' ');
+    if (said.find("ddmm") != said.npos || said.find("DDMM") != said.npos) return true;
+  }
+  if (!has_sides) return false;
+  const auto first = parse_number(table.first_value(longitude), table.dialect().point);
+  const auto second = parse_number(table.first_value(latitude), table.dialect().point);
+  if (!first || !second) return false;
+  const auto whole_digits = [&](std::size_t column) {
+    const std::string_view text = table.first_value(column);
+    return std::min(text.find(table.dialect().point), text.size());
+  };
+  const bool is_padded = whole_digits(latitude) == 4 && whole_digits(longitude) == 5;
+  const bool is_beyond = std::abs(*first) > 180.0 || std::abs(*second) > 90.0;
+  return (is_padded || is_beyond) && std::abs(*first) < 18060.0 && std::abs(*second) < 9060.0;
+}
+
 /// Whether a heading says that its numbers are millionths of degrees.
 bool is_in_millionths(const Table& table, std::size_t column) {
   return table.headings()[column].base.ends_with("e6");
@@ -87,6 +109,11 @@ GeographicColumns::GeographicColumns(const Table& table, std::size_t longitude,
   if (is_in_radians(table, longitude) && is_in_radians(table, latitude)) {
     unit_ = "radians";
     scale_ = Scale(180.0 / std::numbers::pi);
+    return;
+  }
+  if (!in_one_cell() && have_minutes(table, longitude, latitude, south_ && west_)) {
+    unit_ = "degrees and minutes (ddmm.mmmm)";
+    has_minutes_ = true;
     return;
   }
   if (!have_parts_of_degrees(table, longitude, latitude)) return;
@@ -141,7 +168,12 @@ std::optional<GeoPoint> GeographicColumns::place(Table& table) const {
 /// A number; also one with minutes and seconds.
 std::optional<double> GeographicColumns::degrees(Table& table, std::size_t column) const {
   const std::string_view cell = table.cell(column);
-  if (const auto number = table.number(column)) return scale_(*number);
+  if (const auto number = table.number(column)) {
+    if (!has_minutes_) return scale_(*number);
+    const auto both = degrees_of_minutes(*number);
+    if (!both) table.reject_cell(column, "degrees and minutes as ddmm.mmmm");
+    return both;
+  }
   if (is_missing(cell)) return std::nullopt;
   const auto degrees = parse_degrees(cell, column == latitude_);
   if (!degrees) table.reject_cell(column, "a number of degrees");

@@ -39,7 +39,8 @@ class GeographicColumns {
   std::size_t longitude_, latitude_;
   std::optional<std::size_t> west_, south_;  // columns that say so
   std::string_view unit_ = "degrees";
-  Scale scale_;  // to degrees
+  Scale scale_;               // to degrees
+  bool has_minutes_ = false;  // 4952.365 is 49° 52.365'
   std::optional<GeoPoint> origin_;
 };
 

@@ -44,18 +44,18 @@ constexpr std::array<Alias, 16> kAliases = {{
      "t time timestamp time_stamp datetime date_time date/time basedatetime base_date_time utc "
      "time_utc utc_time gps_time gpstime unix_time unixtime epoch posixtime time_position elapsed "
      "elapsed_time seconds_elapsed elapsed_seconds time_since_start datetime_utc tow gps_tow "
-     "seconds sec ts zeit uhrzeit zeitpunkt zeitstempel temps heure horodatage tiempo "
+     "itow seconds sec ts zeit uhrzeit zeitpunkt zeitstempel temps heure horodatage tiempo "
      "hora tijd t_s"},
     {Role::kDate, "date day datum jour fecha dia"},
     {Role::kFrame,
      "frame frame_number frame_no frame_id frame_index frame_idx framenumber image image_id "
-     "img_id"},
+     "img_id slice slice_n°"},
     {Role::kX,
      "x x_pos xpos pos_x posx position_x x_position px point_x x_coord coord_x east easting "
-     "utm_x utm_east x_east cx center_x centre_x x_center x_centre xc mass_a_x u tx local_x"},
+     "utm_x utm_east x_east cx center_x centre_x x_center x_centre xc u tx local_x"},
     {Role::kY,
      "y y_pos ypos pos_y posy position_y y_position py point_y y_coord coord_y north northing "
-     "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc mass_a_y v ty local_y"},
+     "utm_y utm_north y_north cy center_y centre_y y_center y_centre yc v ty local_y"},
     {Role::kZ,
      "z value measurement measured reading position pos distance range height altitude "
      "data signal x"},
@@ -292,23 +292,41 @@ std::vector<ColumnChoice> parse_column_choices(std::string_view text) {
 
 namespace {
 
+constexpr std::string_view kJoints = "_:/";
+
+/// Whether one of the words of a heading is in a list.
+bool has_word(std::string_view base, std::string_view list) {
+  while (!base.empty()) {
+    const std::size_t end = base.find_first_of(kJoints);
+    const std::string_view word = base.substr(0, end);
+    if (any_word(list, [&](std::string_view listed) { return listed == word; })) return true;
+    base.remove_prefix(end == std::string_view::npos ? base.size() : end + 1);
+  }
+  return false;
+}
+
+/// Words before "x" that make it something else than a place that was measured.
+constexpr std::string_view kOthers =
+    "v vel velocity speed twist linear geschwindigkeit a acc accel acceleration beschleunigung "
+    "gyro gyr omega w angular rotation rot orientation quaternion quat q covariance force kraft "
+    "mag gravity grav bias size sigma std error err residual offset start end delta d min max "
+    "home";
+
+/// Whether words before "x" make it something else than a place; of "mass a" the letter is a name.
+bool is_other(std::string_view words) {
+  constexpr std::string_view kThings =
+      "mass masse masa massa object body particle point ball cart car animal player";
+  const std::size_t last = words.find_last_of(kJoints);
+  const bool is_letter = last != std::string_view::npos && last + 2 == words.size();
+  if (is_letter && has_word(words.substr(0, last), kThings)) words = words.substr(0, last);
+  return has_word(words, kOthers);
+}
+
 /// The last word of a heading, where it says what "Ort x" and "Latest: Time" are; empty where words
 /// before it say that it is something else, such as a velocity.
 std::string_view telling_word(std::string_view base) {
-  constexpr std::string_view kOthers =
-      "v vel velocity speed twist linear geschwindigkeit a acc accel acceleration beschleunigung "
-      "gyro gyr omega w angular rotation rot orientation quaternion quat q covariance force kraft "
-      "mag "
-      "gravity grav bias size sigma std error err residual offset start end delta d min max";
-  const std::size_t last = base.find_last_of("_:/");
-  if (last == std::string_view::npos) return {};
-  std::string_view before = base.substr(0, last);
-  while (!before.empty()) {
-    const std::size_t end = before.find_first_of("_:/");
-    const std::string_view word = before.substr(0, end);
-    if (any_word(kOthers, [&](std::string_view other) { return other == word; })) return {};
-    before.remove_prefix(end == std::string_view::npos ? before.size() : end + 1);
-  }
+  const std::size_t last = base.find_last_of(kJoints);
+  if (last == std::string_view::npos || is_other(base.substr(0, last))) return {};
   return base.substr(last + 1);
 }
 
@@ -317,21 +335,67 @@ bool has_other_unit(const Heading& heading) {
   return !heading.unit && (heading.text.ends_with(')') || heading.text.ends_with(']'));
 }
 
-/// The only column whose last word is one of these.
+/// The only column whose last word is one of these; of several, the only one with a unit.
 std::optional<std::size_t> column_telling(std::string_view words,
                                           const std::vector<Heading>& headings) {
-  std::optional<std::size_t> found;
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const std::string_view told = telling_word(headings[i].base);
     if (told.empty() || is_alias(headings[i].base) || has_other_unit(headings[i])) continue;
-    if (!any_word(words, [&](std::string_view word) { return word == told; })) continue;
-    if (found) return std::nullopt;
-    found = i;
+    if (any_word(words, [&](std::string_view word) { return word == told; })) found.push_back(i);
   }
-  return found;
+  if (found.size() > 1) {
+    std::erase_if(found, [&](std::size_t column) { return !headings[column].unit; });
+  }
+  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
 }  // namespace
+
+std::optional<Belonging> belonging_of(const Heading& heading) {
+  // Several columns of the same thing are no several things.
+  constexpr std::string_view kVersions =
+      "true truth gt real actual est estimate estimated pred predicted meas measured raw smooth "
+      "smoothed filt filtered target setpoint desired reference ref cmd command goal prev previous "
+      "last next init initial center centre pos position east north";
+  const auto is_none = [&](std::string_view object) {
+    return is_other(object) || has_word(object, kVersions);
+  };
+  const std::string& base = heading.base;
+  if (is_alias(base) || has_other_unit(heading)) return std::nullopt;
+  const auto named = [&](std::string_view object, std::string_view quantity) {
+    const std::size_t at = base.find(object);
+    std::string name(std::string_view(heading.text).substr(at, object.size()));
+    if (words_joined(name) != object) name = object;  // as it is written if it can be told
+    return std::optional<Belonging>({std::move(name), std::string(quantity)});
+  };
+  const std::size_t last = base.find_last_of(kJoints), first = base.find_first_of(kJoints);
+  const bool is_digit_last =
+      base.size() > 1 && base.find_first_not_of("0123456789", 1) == base.npos;
+  if (is_digit_last && (base[0] == 'x' || base[0] == 'y')) {
+    return named(std::string_view(base).substr(1), std::string_view(base).substr(0, 1));
+  }
+  if (last == std::string::npos || last == 0) return std::nullopt;
+  const auto either = [&](std::string_view word, std::string_view a, std::string_view b) {
+    return word == a || word == b;
+  };
+  const std::string_view front = std::string_view(base).substr(0, last);
+  std::string_view back = std::string_view(base).substr(last + 1);
+  if (is_none(front)) return std::nullopt;
+  const std::string_view start = std::string_view(base).substr(0, first);
+  if (either(start, "x", "y") && !either(back, "x", "y")) {  // x_nose, x_{mass_A}
+    std::string_view object = std::string_view(base).substr(first + 1);
+    if (is_none(object)) return std::nullopt;
+    if (object.starts_with('{') && object.ends_with('}')) {
+      object = object.substr(1, object.size() - 2);
+    }
+    return named(object, start);
+  }
+  if (back == "latitude") back = "lat";
+  if (either(back, "longitude", "long")) back = "lon";
+  if (either(back, "time", "timestamp")) back = "t";
+  return named(front, back);
+}
 
 ColumnMap::ColumnMap(const std::vector<Heading>& headings,
                      const std::vector<ColumnChoice>& choices) {
@@ -396,6 +460,10 @@ bool ColumnMap::has_role(std::size_t column) const {
 bool ColumnMap::is_chosen(Role role) const {
   return std::any_of(columns_.begin(), columns_.begin() + static_cast<std::ptrdiff_t>(chosen_),
                      [&](const auto& column) { return column.first == role; });
+}
+
+void ColumnMap::add(Role role, std::size_t column) {
+  if (!has(role)) columns_.emplace_back(role, column);
 }
 
 std::optional<std::size_t> ColumnMap::find(Role role) const {

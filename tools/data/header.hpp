@@ -72,6 +72,15 @@ struct Heading {
 
 Heading parse_heading(std::string_view cell);
 
+/// What a heading says of one object among several: "nose_x" is the x of "nose".
+struct Belonging {
+  std::string object;
+  std::string quantity;  // "x", "y", "lat", "lon", "t", or what it is called
+};
+
+/// Absent if a heading names no object, or another version of the same one, such as its truth.
+std::optional<Belonging> belonging_of(const Heading& heading);
+
 /// What is wrong with the columns of a table, without the name of the file.
 struct ColumnError : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -94,6 +103,9 @@ class ColumnMap {
   ColumnMap(const std::vector<Heading>& headings, const std::vector<ColumnChoice>& choices);
 
   std::optional<std::size_t> find(Role role) const;
+
+  /// Lets a column have a role that no other has.
+  void add(Role role, std::size_t column);
   bool has(Role role) const { return find(role).has_value(); }
   bool has_plane() const { return has(Role::kX) && has(Role::kY); }
   bool has_degrees() const { return has(Role::kLatitude) && has(Role::kLongitude); }

@@ -40,11 +40,12 @@ struct ScanReader::State {
 
   bool read(DetectionRow& row) {
     while (table.next()) {
-      if (table.text() == row_before) {
+      if (table.line() != line_before && table.text() == row_before) {
         ++repeated;
         continue;
       }
       row_before = table.text();
+      line_before = table.line();
       const auto fix = fixes.read(table);
       if (!fix) continue;
       row.time = fix->time;
@@ -63,6 +64,7 @@ struct ScanReader::State {
   void rewind() {
     table.rewind();
     row_before.clear();
+    line_before = 0;
   }
 
   void survey() {
@@ -109,7 +111,8 @@ struct ScanReader::State {
     }
     text += fmt::format(" ({}), {}", table.dialect().describe(), fixes.describe(table));
     if (sensor) text += "; " + counted(std::ssize(summary.sensors), "sensor", "sensors");
-    if (label) text += "; " + counted(std::ssize(labels.words()), "class", "classes");
+    if (label && !table.side_by_side())
+      text += "; " + counted(std::ssize(labels.words()), "class", "classes");
     if (summary.missed > 0) {
       text += fmt::format("; {} without a position", counted(summary.missed, "row", "rows"));
     }
@@ -147,6 +150,7 @@ struct ScanReader::State {
   std::vector<DetectionRow> now;  // of the present instant, by sensor
   std::size_t at = 0;             // in `now`
   std::string row_before;
+  std::int64_t line_before = 0;
   std::int64_t repeated = 0;
   DataSummary summary;
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tools/data/geographic_columns.hpp"
+#include "tools/data/grid_zone.hpp"
 #include "tools/data/time_column.hpp"
 #include "tools/data/time_order.hpp"
 #include "tools/record/errors.hpp"
@@ -98,6 +99,7 @@ struct SeriesReader::State {
         k(is_filtered(table) ? std::nullopt : table.column("k")),
         dt_column(table.column_with_unit("dt")),
         identity(table.columns().find(Role::kIdentity)) {
+    if (table.side_by_side()) refuse_several_objects();
     Measured measured = find_measured(table);
     degrees = std::move(measured.degrees);
     if (measured.columns.empty() && !degrees) table.required(Role::kZ);
@@ -106,6 +108,7 @@ struct SeriesReader::State {
     if (are_asked || (are_there && wanted == SeriesTimes::kIfThere)) times.emplace(table, options);
     table.throw_missing_columns();
     for (const std::size_t column : measured.columns) axes.emplace_back(table, column);
+    if (axes.size() > 1) zone = GridZone::find(table);
     for (std::size_t axis = 0; axis < dimensions(); ++axis) {
       const std::string suffix = dimensions() == 1 ? "" : std::string("_") + kAxes[axis];
       if (const auto column = table.column_with_unit("truth" + suffix)) {
@@ -114,6 +117,16 @@ struct SeriesReader::State {
     }
     if (truth.size() < dimensions()) truth.clear();
     is_file = table.can_rewind();
+  }
+
+  [[noreturn]] void refuse_several_objects() const {
+    const auto& columns = table.side_by_side()->objects.front().columns;
+    throw InputError(fmt::format(
+        "{}: error: there are {}; a series is of one: name its columns by --columns, such as "
+        "x={},y={}",
+        table.name(), table.side_by_side()->describe(),
+        columns[*table.columns().find(Role::kX)] + 1,
+        columns[*table.columns().find(Role::kY)] + 1));
   }
 
   std::size_t dimensions() const { return degrees ? 2 : axes.size(); }
@@ -184,6 +197,7 @@ struct SeriesReader::State {
   /// The next sound row of the table; false after the last.
   bool parse(MeasuredRow& row) {
     while (table.next()) {
+      if (zone) zone->check(table);
       row = {.number = count + 1,
              .line = table.line(),
              .time = times ? times->read(table) : std::nullopt,
@@ -324,6 +338,7 @@ struct SeriesReader::State {
   std::optional<TimeColumn> times;
   std::vector<Quantity> axes, truth;
   std::optional<GeographicColumns> degrees;  // instead of axes
+  std::optional<GridZone> zone;
   std::optional<std::size_t> g, h, k, dt_column;
   std::optional<std::size_t> identity;
   std::string object;  // that the first row is of

@@ -75,36 +75,75 @@ void join_date_and_time(std::vector<std::string_view>& cells) {
   }
 }
 
-/// Whether a row of headings names a time and what was measured.
-bool is_telling(const std::vector<Heading>& headings, const std::vector<ColumnChoice>& choices) {
-  try {
-    const ColumnMap map(headings, choices);
-    const bool has_time = map.has(Role::kTime) || map.has(Role::kFrame);
-    return has_time && (map.has_plane() || map.has_degrees() || map.has(Role::kZ));
-  } catch (const ColumnError&) {  // a column that is there twice: not for this to say
-    return false;
-  }
-}
-
 std::vector<Heading> headings_in(const std::vector<std::string_view>& cells) {
   std::vector<Heading> headings;
   for (const std::string_view cell : cells) headings.push_back(parse_heading(cell));
   return headings;
 }
 
-/// Where one name heads several columns, as X of a rotation and of a position, the row above tells
-/// them apart; a cell there may stand for those after it, too.
-std::vector<Heading> headings_below(const std::vector<std::string>& above,
-                                    const std::vector<std::string_view>& cells) {
-  std::vector<Heading> headings;
-  std::string group;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i < above.size() && !above[i].empty()) group = above[i];
-    const bool repeats = std::count(cells.begin(), cells.end(), cells[i]) > 1;
-    headings.push_back(
-        parse_heading(repeats ? fmt::format("{} {}", group, cells[i]) : std::string(cells[i])));
+/// What a row of headings tells.
+struct Telling {
+  bool time = false;
+  bool place = false;  // or another value
+};
+
+Telling telling_of(const std::vector<Heading>& headings, const std::vector<ColumnChoice>& choices) {
+  try {
+    const ColumnMap map(headings, choices);
+    const auto objects = SideBySide::find(headings);
+    const bool has_times = objects && ColumnMap(objects->headings, {}).has(Role::kTime);
+    return {.time = map.has(Role::kTime) || map.has(Role::kFrame) || has_times,
+            .place = map.has_plane() || map.has_degrees() || map.has(Role::kZ) || objects};
+  } catch (const ColumnError&) {  // a column that is there twice: not for this to say
+    return {};
   }
+}
+
+/// Where one name heads several columns, as X of a rotation and of a position, the rows above tell
+/// them apart, the nearest first; a cell there may stand for those after it, too.
+std::vector<Heading> headings_below(const std::vector<std::vector<std::string>>& above,
+                                    const std::vector<std::string_view>& cells) {
+  std::vector<std::string> names(cells.begin(), cells.end());
+  for (auto row = above.rbegin(); row != above.rend(); ++row) {
+    const std::vector<std::string> below = names;
+    std::string group;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (i < row->size() && !(*row)[i].empty()) group = (*row)[i];
+      const bool repeats = std::count(below.begin(), below.end(), below[i]) > 1;
+      if (repeats && !group.empty()) names[i] = fmt::format("{} {}", group, below[i]);
+    }
+  }
+  std::vector<Heading> headings;
+  for (const std::string& name : names) headings.push_back(parse_heading(name));
   return headings;
+}
+
+constexpr std::size_t kMostLines = 20;  // of a cell in quotes
+
+/// Whether a row ends inside a cell in quotes; absent if there is text behind a closing quote, so
+/// that the quotes are none that could be relied on.
+std::optional<bool> ends_in_quotes(std::string_view row) {
+  constexpr std::string_view kSeparators = ",;\t|";
+  bool at_start = true;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] != '"' || !at_start) {
+      at_start = kSeparators.find(row[i]) != kSeparators.npos || (at_start && row[i] == ' ');
+      continue;
+    }
+    for (++i; i < row.size(); ++i) {  // to the closing quote
+      if (row[i] != '"') continue;
+      if (i + 1 == row.size() || row[i + 1] != '"') break;
+      ++i;
+    }
+    if (i >= row.size()) return true;
+    const std::size_t after = row.find_first_not_of(' ', i + 1);
+    const bool is_blank_next = after != row.npos && after > i + 1;
+    if (after != row.npos && !is_blank_next && kSeparators.find(row[after]) == kSeparators.npos) {
+      return std::nullopt;
+    }
+    at_start = is_blank_next;
+  }
+  return false;
 }
 
 TextInput open_input(const std::string& path, const std::function<void()>& pause) {
@@ -131,7 +170,14 @@ Table::Table(const std::string& path, const ReadOptions& options)
       choices.push_back({Role::kTime, options_.time_column});
     }
     take_units_of(choices);
+    name_index();
+    part_objects(choices);
     columns_ = ColumnMap(headings_, choices);
+    if (side_by_side_) {
+      columns_.add(Role::kIdentity, headings_.size() - 1);
+      columns_.add(Role::kClass, headings_.size() - 1);
+    }
+    find_first_values();
   } catch (const ColumnError& error) {
     findings_.add(sample_.empty() ? 0 : sample_.front().number, error.what());
     findings_.throw_if_any();
@@ -159,26 +205,63 @@ void Table::take_sample() {
   const std::size_t most = input_.can_rewind() ? kSampleOfFile : kSampleOfPipe;
   std::string last_comment;
   while (sample_.size() < most) {
-    const auto line = input_.next();
+    const auto line = read_line();
     if (!line) break;
     if (is_comment(*line)) {
       if (sample_.empty()) last_comment = *line;
     } else if (!is_blank(*line) || !sample_.empty()) {
-      sample_.push_back({std::string(*line), input_.line_number()});
+      sample_.push_back({std::string(*line), line_read_});
+      sample_end_ = input_.line_number() - std::ssize(ahead_);
     }
   }
   std::vector<std::string> lines;
-  for (const SampleLine& line : sample_) lines.push_back(line.text);
+  for (const Line& line : sample_) lines.push_back(line.text);
   dialect_ = recognise_dialect(lines);
   find_header(last_comment);
-  find_first_values();
+  width_ = headings_.size();
   at_ = first_row_;
+}
+
+/// Where the first column has no name and no other tells the time, it is the index of the rows: a
+/// time, or the number of an image.
+void Table::name_index() {
+  if (!has_header_ || first_row_ >= sample_.size() || !headings_.front().text.empty()) return;
+  for (const Role role : {Role::kTime, Role::kFrame, Role::kDate}) {
+    if (ColumnMap(headings_, {}).has(role)) return;
+  }
+  split_row(sample_[first_row_].text);
+  const bool counts = cells_.front().find_first_not_of("0123456789") == std::string_view::npos;
+  headings_.front() = parse_heading(counts ? "frame" : "time");
+  headings_.front().text = "column 1";
+}
+
+/// Makes rows of the objects that stand side by side, unless one of them was asked for.
+void Table::part_objects(std::vector<ColumnChoice>& choices) {
+  for (const ColumnChoice& choice : choices) {
+    for (const Role role : {Role::kX, Role::kY, Role::kZ, Role::kLatitude, Role::kLongitude,
+                            Role::kPlace, Role::kIdentity}) {
+      if (choice.role == role) return;
+    }
+  }
+  const ColumnMap map(headings_, choices);
+  if (map.has_plane() || map.has_degrees() || map.has(Role::kZ)) return;
+  std::optional<SideBySide> objects = SideBySide::find(headings_);
+  if (!objects) return;
+  for (ColumnChoice& choice : choices) {  // a number counts the columns of the file
+    const auto number = parse_whole(choice.column);
+    if (column(choice.column) || !number || *number < 1 || *number > std::ssize(headings_))
+      continue;
+    choice.column = headings_[static_cast<std::size_t>(*number - 1)].text;
+  }
+  headings_ = objects->headings;
+  side_by_side_ = std::move(objects);
 }
 
 void Table::find_first_values() {
   first_values_.resize(headings_.size());
   for (std::size_t row = first_row_; row < sample_.size(); ++row) {
     split_row(sample_[row].text);
+    show_first_object();
     if (row == first_row_) first_cells_.assign(cells_.begin(), cells_.end());
     for (std::size_t i = 0; i < std::min(cells_.size(), headings_.size()); ++i) {
       if (first_values_[i].empty() && is_value(cells_[i], dialect_)) {
@@ -198,6 +281,7 @@ void Table::find_header(const std::string& last_comment) {
     first_row_ = 1;
     take_title_rows();
     header_ = sample_[first_row_ - 1].text;
+    if (take_index_name()) ++first_row_;
     while (first_row_ < sample_.size() && repeats_header(sample_[first_row_].text)) ++first_row_;
     if (take_units_row()) ++first_row_;
     if (has_row_names()) headings_.insert(headings_.begin(), Heading{});
@@ -228,23 +312,41 @@ bool Table::starts_with_value() const {
 
 /// Where the first row says nothing of the columns, a row of headings below it may: above it are
 /// titles, as the names of objects in a program for videos, or the rate of a motion capture alone.
+/// Where several rows of headings have their own names in the first column, as in tables of pandas
+/// and DeepLabCut, that column is the index.
 void Table::take_title_rows() {
-  constexpr std::size_t kMostTitles = 8;
-  const std::vector<ColumnChoice> choices = parse_column_choices(options_.columns);
-  if (is_telling(headings_, choices)) return;
-  std::vector<std::string> above;
-  for (const Heading& heading : headings_) above.push_back(heading.text);
-  for (std::size_t row = 1; row < std::min(sample_.size(), kMostTitles); ++row) {
+  std::vector<ColumnChoice> choices = parse_column_choices(options_.columns);
+  std::erase_if(choices, [](const ColumnChoice& choice) { return parse_whole(choice.column); });
+  const Telling first = telling_of(headings_, choices);
+  if (first.time && first.place) return;
+  std::vector<std::vector<std::string>> above;
+  for (std::size_t row = 0; row < sample_.size(); ++row) {
     split_cells(sample_[row].text, dialect_.separator, cells_, owned_);
-    if (cells_.size() > 1 && starts_with_value()) return;
+    if (row > 0 && cells_.size() > 1 && starts_with_value()) return;
     std::vector<Heading> below = headings_below(above, cells_);
-    if (is_telling(below, choices)) {
+    const bool is_index = row > 0 && cells_.size() > 1 && cells_.size() == above.back().size();
+    const Telling told = telling_of(below, choices);
+    if (told.place && (told.time || is_index)) {
+      if (!told.time) below.front() = Heading{};
       headings_ = std::move(below);
       first_row_ = row + 1;
       return;
     }
-    above.assign(cells_.begin(), cells_.end());
+    above.emplace_back(cells_.begin(), cells_.end());
   }
+}
+
+/// Whether the row below the header has nothing but the name of the first column, as pandas writes
+/// it. Takes it.
+bool Table::take_index_name() {
+  if (first_row_ >= sample_.size() || !headings_.front().text.empty()) return false;
+  split_cells(sample_[first_row_].text, dialect_.separator, cells_, owned_);
+  const bool is_alone = cells_.size() == headings_.size() && cells_.size() > 1 &&
+                        !cells_.front().empty() && !starts_with_value() &&
+                        std::all_of(cells_.begin() + 1, cells_.end(),
+                                    [](std::string_view cell) { return cell.empty(); });
+  if (is_alone) headings_.front() = parse_heading(cells_.front());
+  return is_alone;
 }
 
 /// Whether a row below the header is one again: what was measured is named where it is.
@@ -268,7 +370,7 @@ bool Table::repeats_header(const std::string& line) {
 /// tables.
 bool Table::has_row_names() {
   std::vector<std::string_view> cells;
-  const auto is_named = [&](const SampleLine& line) {
+  const auto is_named = [&](const Line& line) {
     split_cells(line.text, dialect_.separator, cells, owned_);
     return line.text.starts_with('"') && cells.size() == headings_.size() + 1 &&
            !cells.back().empty();
@@ -278,20 +380,27 @@ bool Table::has_row_names() {
          std::all_of(rows.begin(), rows.end(), is_named);
 }
 
-/// Takes the row below the header for the units of the columns if it holds nothing but units.
+/// Takes the row below the header for the units of the columns if it holds no numbers and, where
+/// times and places are, nothing but units; "m/s" elsewhere is no matter.
 bool Table::take_units_row() {
   if (first_row_ >= sample_.size()) return false;
   std::vector<std::string_view> units;
   split_cells(sample_[first_row_].text, dialect_.separator, units, owned_);
   if (units.size() != headings_.size()) return false;
   std::vector<Heading> with_units = headings_;
+  const ColumnMap map(headings_, {});
+  const auto is_place_or_time = [&](std::size_t column) {
+    const auto belonging = belonging_of(headings_[column]);
+    return map.has_role(column) || (belonging && belonging->quantity.size() == 1);
+  };
   bool any = false;
   for (std::size_t i = 0; i < units.size(); ++i) {
-    if (units[i].empty()) continue;
+    if (is_missing(units[i])) continue;
+    if (is_value(units[i], dialect_)) return false;
     const bool bracketed = units[i].front() == '(' || units[i].front() == '[';
     const Heading heading =
         parse_heading("x " + (bracketed ? std::string(units[i]) : fmt::format("({})", units[i])));
-    if (!heading.unit && !bracketed) return false;  // "(quality)" is none that is known
+    if (!heading.unit && !bracketed && is_place_or_time(i)) return false;
     with_units[i].unit = heading.unit;
     any = any || heading.unit.has_value();
   }
@@ -348,7 +457,8 @@ std::string_view Table::first_cell(std::size_t column) const {
 bool Table::begins_with_numbers(std::size_t column) {
   for (std::size_t row = first_row_; row < sample_.size(); ++row) {
     split_row(sample_[row].text);
-    if (cells_.size() != headings_.size()) continue;
+    if (cells_.size() != width_) continue;
+    show_first_object();
     if (cells_[column].find_first_not_of("+-.0123456789") != std::string_view::npos) return false;
   }
   return true;
@@ -357,7 +467,8 @@ bool Table::begins_with_numbers(std::size_t column) {
 bool Table::shows(std::size_t column, char character) {
   for (std::size_t row = first_row_; row < sample_.size(); ++row) {
     split_row(sample_[row].text);
-    if (cells_.size() != headings_.size()) continue;
+    if (cells_.size() != width_) continue;
+    show_first_object();
     if (cells_[column].find(character) != std::string_view::npos) return true;
   }
   return false;
@@ -368,40 +479,97 @@ std::string_view Table::first_value(std::size_t column) const {
   return found ? std::string_view(first_values_[column]) : first_cell(column);
 }
 
+/// The next line of the file, with those after it if a cell in quotes goes on there.
+std::optional<std::string_view> Table::read_line() {
+  if (ahead_.empty()) {
+    const auto line = input_.next();
+    line_read_ = input_.line_number();
+    if (!line || line->find('"') == line->npos || ends_in_quotes(*line) != true) return line;
+    ahead_.push_back({std::string(*line), line_read_});
+  }
+  joined_ = ahead_.front().text;
+  line_read_ = ahead_.front().number;
+  std::size_t lines = 1;
+  for (; ends_in_quotes(joined_) == true && lines < kMostLines; ++lines) {
+    if (lines == ahead_.size()) {
+      const auto more = input_.next();
+      if (!more) break;
+      ahead_.push_back({std::string(*more), input_.line_number()});
+    }
+    joined_ += ' ';
+    joined_ += ahead_[lines].text;
+  }
+  if (ends_in_quotes(joined_) != false) {  // it never ends: the line stands for itself
+    joined_ = ahead_.front().text;
+    lines = 1;
+  }
+  ahead_.erase(ahead_.begin(), ahead_.begin() + static_cast<std::ptrdiff_t>(lines));
+  return joined_;
+}
+
 std::optional<std::string_view> Table::next_line() {
   if (at_ < sample_.size()) {
     line_number_ = sample_[at_].number;
     return sample_[at_++].text;
   }
-  const auto line = input_.next();
-  line_number_ = input_.line_number();
+  const auto line = read_line();
+  line_number_ = line_read_;
   return line;
 }
 
 void Table::split_row(std::string_view line) {
   split_cells(line, dialect_.separator, cells_, owned_);
-  while (cells_.size() > headings_.size() && cells_.back().empty()) cells_.pop_back();
-  while (cells_.size() < headings_.size() && headings_[cells_.size()].text.empty()) {
+  while (cells_.size() > width_ && cells_.back().empty()) cells_.pop_back();
+  while (cells_.size() < width_ && !side_by_side_ && headings_[cells_.size()].text.empty()) {
     cells_.emplace_back();  // a column without a name needs no cells
   }
-  if (dialect_.separator == ' ' && cells_.size() == headings_.size() + 1) {
-    join_date_and_time(cells_);
+  if (dialect_.separator == ' ' && cells_.size() == width_ + 1) join_date_and_time(cells_);
+}
+
+/// Makes the cells of a row that has been split those of its first object.
+void Table::show_first_object() {
+  if (!side_by_side_ || cells_.size() != width_) return;
+  fields_.swap(cells_);
+  side_by_side_->arrange(fields_, side_by_side_->objects.front(), cells_);
+}
+
+/// Whether the object has nothing in the row, not even a time, since it has times of its own.
+bool Table::is_object_absent() const {
+  const auto time = columns_.find(Role::kTime);
+  return side_by_side_ && time && *time >= side_by_side_->shared &&
+         side_by_side_->is_absent(cells_);
+}
+
+/// Goes to the next object of the row, if there is one.
+bool Table::next_object() {
+  while (objects_left_ > 0) {
+    const auto& objects = side_by_side_->objects;
+    side_by_side_->arrange(fields_, objects[objects.size() - objects_left_], cells_);
+    --objects_left_;
+    if (!is_object_absent()) return true;
   }
+  return false;
 }
 
 bool Table::next() {
+  if (next_object()) return true;
   while (options_.skip_bad_rows || !findings_.enough()) {
     const auto line = next_line();
     if (!line) return false;
-    if (line->empty() ? headings_.size() != 1 : (is_blank(*line) || is_comment(*line))) continue;
+    if (line->empty() ? width_ != 1 : (is_blank(*line) || is_comment(*line))) continue;
     line_ = *line;
     if (has_header_ && line_ == header_) continue;  // files that were put together have it again
     split_row(line_);
-    if (cells_.size() == headings_.size()) return true;
-    const bool is_open = std::count(line_.begin(), line_.end(), '"') % 2 != 0;
+    if (cells_.size() == width_) {
+      show_first_object();
+      objects_left_ = side_by_side_ ? side_by_side_->objects.size() - 1 : 0;
+      if (!is_object_absent() || next_object()) return true;
+      continue;
+    }
+    const bool is_open = line_.find('"') != line_.npos && ends_in_quotes(line_) != false;
     reject(fmt::format("this row has {} fields; the {} row has {}{}", cells_.size(),
-                       has_header_ ? "header" : "first", headings_.size(),
-                       is_open ? "; a cell in quotes must end in its line" : ""));
+                       has_header_ ? "header" : "first", width_,
+                       is_open ? "; a cell in quotes does not end, or has text behind it" : ""));
   }
   return false;
 }
@@ -434,9 +602,10 @@ void Table::throw_findings() const {
 
 void Table::rewind() {
   input_.rewind();
-  const std::int64_t last = sample_.empty() ? input_.line_number() : sample_.back().number;
-  while (input_.line_number() < last) input_.next();
+  while (input_.line_number() < sample_end_) input_.next();
+  ahead_.clear();
   at_ = first_row_;
+  objects_left_ = 0;
   findings_ = Findings(input_.name());
   rejected_ = 0;
   rejected_line_ = -1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "tools/data/dialect.hpp"
 #include "tools/data/header.hpp"
+#include "tools/data/side_by_side.hpp"
 #include "tools/record/text_file.hpp"
 #include "tools/record/text_input.hpp"
 
@@ -25,7 +27,8 @@ struct ReadOptions {
 
 /// A table of text, row by row in constant memory: CSV and its kin, with a header row, a header in
 /// the last comment line, or none. Empty lines and those that start with #, % or // are passed
-/// over.
+/// over. A cell in quotes may go on in the next lines; its line breaks are read as blanks. Where
+/// several objects stand side by side, each row of the file is a row for each of them.
 ///
 /// What is wrong with rows is gathered: throw_findings() refuses the file with all of it, unless
 /// bad rows are to be left out.
@@ -42,6 +45,9 @@ class Table {
   const std::vector<Heading>& headings() const { return headings_; }
   bool has_header() const { return has_header_; }
   const ColumnMap& columns() const { return columns_; }
+
+  /// Where several objects stand side by side.
+  const std::optional<SideBySide>& side_by_side() const { return side_by_side_; }
 
   /// The column of exactly this name.
   std::optional<std::size_t> column(std::string_view name) const;
@@ -71,7 +77,7 @@ class Table {
   bool next();
 
   std::int64_t line() const { return line_number_; }
-  std::string_view text() const { return line_; }  // of the row
+  std::string_view text() const { return line_; }  // of the row in the file
   std::string_view cell(std::size_t column) const { return cells_[column]; }
 
   /// The finite number in a cell; absent if it is anything else.
@@ -105,7 +111,7 @@ class Table {
   void rewind();
 
  private:
-  struct SampleLine {
+  struct Line {
     std::string text;
     std::int64_t number;
   };
@@ -116,11 +122,18 @@ class Table {
   void find_first_values();
   bool starts_with_value() const;
   void take_title_rows();
+  bool take_index_name();
   bool take_units_row();
+  void name_index();
+  void part_objects(std::vector<ColumnChoice>& choices);
   bool repeats_header(const std::string& line);
   bool has_row_names();
+  std::optional<std::string_view> read_line();
   std::optional<std::string_view> next_line();
   void split_row(std::string_view line);
+  bool is_object_absent() const;
+  bool next_object();
+  void show_first_object();
   void reject_at(std::int64_t character, const std::string& message);
 
   ReadOptions options_;
@@ -132,13 +145,21 @@ class Table {
   std::vector<Heading> headings_;
   ColumnMap columns_;
   bool has_header_ = false;
-  std::string header_;              // the row itself
-  std::vector<SampleLine> sample_;  // the first lines that are no comments
-  std::size_t first_row_ = 0;       // where in the sample the data begin
-  std::size_t at_ = 0;              // in the sample
+  std::string header_;           // the row itself
+  std::vector<Line> sample_;     // the first lines that are no comments
+  std::size_t first_row_ = 0;    // where in the sample the data begin
+  std::size_t at_ = 0;           // in the sample
+  std::int64_t sample_end_ = 0;  // line of the file in which it ends
+  std::deque<Line> ahead_;       // lines in which the end of a quoted cell was looked for
+  std::string joined_;           // a row of several lines
+  std::int64_t line_read_ = 0;   // where the line that was read last begins
   std::string_view line_;
   std::int64_t line_number_ = 0;
   std::vector<std::string_view> cells_;
+  std::optional<SideBySide> side_by_side_;
+  std::size_t width_ = 0;                 // cells in a row of the file
+  std::size_t objects_left_ = 0;          // of those side by side in the row
+  std::vector<std::string_view> fields_;  // of all objects
   std::vector<std::string> owned_;
   std::vector<std::string> first_cells_, first_values_;
 };

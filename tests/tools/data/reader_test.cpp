@@ -155,6 +155,17 @@ TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
   // What datasets and autopilots write: titles of other shape, words joined by capitals, vectors
   // beside the position.
   EXPECT_EQ(scans_of("mass A\nt,x,y\n0,1,2\n0.5,1.5,2.5\n"), expected);
+  EXPECT_EQ(scans_of("This file is made by a logger\n\nFormat,3\nTitle,\"Track\"\nMade,13/06/2024,"
+                     "9:30\nNote,\n\nt,lap,x,y\n0,1,1,2\n0.5,1,1.5,2.5\n0.5,1,1.5,2.5\n"
+                     "0.5,1,1.5,2.5\n0.5,1,1.5,2.5\n0.5,1,1.5,2.5\n"),
+            expected);
+  EXPECT_EQ(scans_of("\"Time\",\"X\",\"Y\",\"Speed\"\n\"ms\",\"cm\",\"cm\",\"m/s\"\n0,100,200,1\n"
+                     "500,150,250,1\n"),
+            expected);
+  EXPECT_EQ(
+      scans_of("sep=,\nCUSTOM.updateTime [local],OSD.flyTime,OSD.flyTime [s],p.x,p.y,HOME.x,"
+               "HOME.y\n9:30:00.00 AM,0m 0s,0,1,2,9,9\n9:30:00.50 AM,0m 0.5s,0.5,1.5,2.5,9,9\n"),
+      expected);
   EXPECT_EQ(scans_of("Film 3\nmass A\nt;x;y\n0;1;2\n0,5;1,5;2,5\n"), expected);
   EXPECT_EQ(scans_of("t x y\n0 1,0 2,0\n0,5 1,5 2,5\n"), expected);
   EXPECT_EQ(scans_of("TimeUS,xCenter,yCenter\n0,1,2\n500000,1.5,2.5\n"), expected);
@@ -174,6 +185,135 @@ TEST(ScanReader, UnderstandsWhatProgramsWriteAroundATable) {
   EXPECT_THAT(message_of("vel t,vel x,vel y\n0,1,2\n",
                          [](const auto& path) { ScanReader reader(path.string()); }),
               HasSubstr("column 'x' is missing"));
+}
+
+// Property: objects side by side are the rows that they would be one below the other, whatever rows
+// of headings name them: of Tracker, pandas, DeepLabCut, SLEAP or Vicon.
+TEST(ScanReader, PartsObjectsSideBySide) {
+  const std::string expected = "0/0: 1,2 7,8; 0.5/0: 1.5,2.5; 1/0: 2,3 9,9; ";
+  const std::string rows = "0,1,2,7,8\n0.5,1.5,2.5,,\n1,2,3,9,9\n";
+  for (const char* header :
+       {"t,ball_x,ball_y,box_x,box_y\n", "t,x1,y1,x2,y2\n",
+        "t,x_{mass_A},y_{mass_A},x_{mass_B},y_{mass_B}\n", "multi:,mass_A,,mass_B,\nt,x,y,x,y\n",
+        ",one,,two,\nt,x,y,x,y\n", ",one,one,two,two\n,x,y,x,y\ntime,,,,\n",
+        "object,one,one,two,two\ncoord,x,y,x,y\nt,,,,\n",
+        ",Walker:Head,,Walker:Toe,\nTime,X,Y,X,Y\ns,m,m,m,m\n",
+        "Time (s),Track 1: X (m),Track 1: Y (m),Track 2: X (m),Track 2: Y (m)\n"}) {
+    EXPECT_EQ(scans_of(header + rows), expected) << header;
+  }
+  // Each with times of its own, one of them seen for a shorter time.
+  EXPECT_EQ(scans_of("mass_A\t\t\tmass_B\t\t\nt\tx\ty\tt\tx\ty\n0\t1\t2\t0\t7\t8\n"
+                     "0.5\t1.5\t2.5\t1\t9\t9\n1\t2\t3\t\t\t\n"),
+            "0/0: 1,2 7,8; 0.5/0: 1.5,2.5; 1/0: 9,9 2,3; ");
+  const std::string frames = "0,1,2,0.9,7,8,1\n1,1.5,2.5,1,,,\n2,2,3,1,9,9,0.8\n";
+  for (const char* header :
+       {"scorer,net,net,net,net,net,net\nbodyparts,nose,nose,nose,tail,tail,tail\n"
+        "coords,x,y,likelihood,x,y,likelihood\n",
+        "scorer,net,net,net,net,net,net\nindividuals,mouse1,mouse1,mouse1,mouse2,mouse2,"
+        "mouse2\nbodyparts,nose,nose,nose,nose,nose,nose\n"
+        "coords,x,y,likelihood,x,y,likelihood\n",
+        "frame_idx,nose.x,nose.y,nose.score,tail.x,tail.y,tail.score\n"}) {
+    EXPECT_EQ(scans_of(header + frames, {.columns = "", .frame_rate = 2.0}), expected) << header;
+  }
+  EXPECT_EQ(scans_of("t,p_x,p_y,q2_x,q2_y\n" + rows, {.columns = "x=q2_x,y=q2_y"}),
+            "0/0: 7,8; 0.5/0:; 1/0: 9,9; ");
+  // What is written of one object several times, or in two units, is not several objects.
+  for (const char* header :
+       {"t,true_x,true_y,measured_x,measured_y\n", "t,start_x,start_y,end_x,end_y\n",
+        "t,p_x (mm),p_y (mm),q2_x (m),q2_y (m)\n", "t,a_vel_x,a_vel_y,b_vel_x,b_vel_y\n"}) {
+    EXPECT_THAT(
+        message_of(header + rows, [](const auto& path) { ScanReader reader(path.string()); }),
+        HasSubstr("column 'x' is missing"))
+        << header;
+  }
+}
+
+// Property: an index without a name is the time, or counts images.
+TEST(ScanReader, TakesAnIndexForTheTime) {
+  const std::string expected = "0/0: 1,2; 0.5/0: 1.5,2.5; ";
+  EXPECT_EQ(scans_of(",x,y\n0,1,2\n1,1.5,2.5\n", {.columns = "", .frame_rate = 2.0}), expected);
+  EXPECT_EQ(scans_of(",x,y\n0.0,1,2\n0.5,1.5,2.5\n"), expected);
+  EXPECT_EQ(scans_of(",x,y\n1970-01-01 00:00:00,1,2\n1970-01-01 00:00:00.5,1.5,2.5\n"), expected);
+  EXPECT_EQ(scans_of("\"\",\"t\",\"x\",\"y\"\n\"1\",0,1,2\n\"2\",0.5,1.5,2.5\n"), expected);
+}
+
+// Property: a cell in quotes may go on in the next lines; one that never ends, or ends elsewhere
+// than before a separator, takes no other row with it.
+TEST(ScanReader, ReadsCellsOfSeveralLines) {
+  EXPECT_EQ(scans_of("t,note,x,y\n0,\"first\n# second, \"\"third\"\"\n\",1,2\n0.5,,1.5,2.5\n"),
+            "0/0: 1,2; 0.5/0: 1.5,2.5; ");
+  EXPECT_EQ(scans_of("\"t\n(ms)\",\"x\r\n(cm)\",y\n0,100,2\n500,150,2.5\n"),
+            "0/0: 1,2; 0.5/0: 1.5,2.5; ");
+  std::string many = "t,note,x,y\n";
+  for (int i = 0; i < 60; ++i)
+    many += std::to_string(i) + (i == 50 ? ",\"a\nb\",1,2\n" : ",,1,2\n");
+  const auto read = [](const auto& path) { ScanReader reader(path.string()); };
+  EXPECT_EQ(message_of(many + "60,\"open,1,2\n61,,1,2\n", read),
+            "in.csv:63: error: this row has 2 fields; the header row has 4; a cell in quotes does "
+            "not end, or has text behind it");
+  EXPECT_THAT(message_of("t,note,x,y\n0,\"open,1,2\n1,\"shut\",1,2\n2,,1,2\n", read),
+              StartsWith("in.csv:2: error: this row has 2 fields"));
+}
+
+// Derived: sentences of NMEA 0183 with their checksums; 4807.038 N is 48° 7.038'. Dates are in RMC
+// alone; a receiver without a fix (V, or quality 0) saw nothing.
+TEST(ScanReader, ReadsSentencesOfReceivers) {
+  const auto sentence = [](const std::string& text) {
+    unsigned sum = 0;
+    for (const char c : text) sum ^= static_cast<unsigned char>(c);
+    char end[8];
+    std::snprintf(end, sizeof end, "*%02X\r\n", sum);
+    return "$" + text + end;
+  };
+  const std::string first = sentence("GPRMC,123519.00,A,4807.038,N,01131.000,W,22.4,84.4,230394,,");
+  EXPECT_THAT(first, HasSubstr("*"));
+  const std::string log = sentence("GPGSV,1,1,00") + sentence("GNRMC,,V,,,,,,,,,,N") +
+                          sentence("GNGGA,123519,4807.038,S,01131.000,E,1,08,0.9,5.4,M,,M,,") +
+                          first + sentence("GPRMC,123520.00,V,,,,,,,230394,,") +
+                          sentence("GPRMC,123521.50,A,4807.038,N,01131.000,W,22.4,84.4,230394,,");
+  const ScratchFolder folder;
+  ScanReader reader(folder.write("gps.txt", log).string());
+  ASSERT_TRUE(reader.summary().origin.has_value());
+  EXPECT_DOUBLE_EQ(reader.summary().origin->latitude, 48.0 + 7.038 / 60.0);
+  EXPECT_DOUBLE_EQ(reader.summary().origin->longitude, -(11.0 + 31.0 / 60.0));
+  EXPECT_EQ(reader.summary().rows, 3);
+  EXPECT_EQ(reader.summary().missed, 1);
+  EXPECT_EQ(reader.summary().first_time, 764426119.0);  // 1994-03-23 12:35:19
+  EXPECT_EQ(reader.summary().last_time, 764426121.5);
+  ScanReader positions(
+      folder
+          .write("gga.txt", sentence("GPGGA,235959,4807.038,S,01131.000,E,2,08,0.9,5.4,M,,M,,") +
+                                sentence("GPGGA,000000,,,,,0,00,,,M,,M,,") +
+                                sentence("GPGGA,000001,4807.038,S,01131.000,E,1,08,,,M,,M,,"))
+          .string());
+  EXPECT_LT(positions.summary().origin->latitude, -48.0);
+  EXPECT_EQ(positions.summary().last_time - positions.summary().first_time, 2.0);
+  EXPECT_EQ(positions.summary().missed, 1);
+  const auto read = [](const auto& path) { ScanReader all(path.string()); };
+  std::string damaged = log;
+  damaged.replace(damaged.rfind("4807.038"), 8, "4817.038");
+  EXPECT_THAT(message_of(damaged, read), HasSubstr("in.csv:6:1: error: 'a sentence with the "
+                                                   "checksum"));
+  EXPECT_THAT(message_of("!AIVDM,1,1,,A,13HOI:0P0000VOHLCnHQKwvL05Ip,0*23\n", read),
+              HasSubstr("gpsdecode"));
+}
+
+// Property: places of two zones of a grid are in no common plane; bands of one zone are.
+TEST(ScanReader, RefusesPlacesOfTwoZones) {
+  const auto rows = [](const char* first, const char* second) {
+    return std::string("t,easting,northing,zone\n0,1,2,") + first + "\n1,3,4," + second + "\n";
+  };
+  for (const auto& [first, second] : {std::pair("32", "32"), std::pair("32V", "32U"),
+                                      std::pair("32V", "32"), std::pair("09 N", "9N")}) {
+    EXPECT_EQ(scans_of(rows(first, second)), "0/0: 1,2; 1/0: 3,4; ") << first << second;
+  }
+  for (const auto& [first, second] : {std::pair("32V", "33V"), std::pair("32", "33"),
+                                      std::pair("32M", "32N"), std::pair("32S", "32N")}) {
+    EXPECT_THAT(
+        message_of(rows(first, second), [](const auto& path) { ScanReader reader(path.string()); }),
+        HasSubstr(":3:7: error: '" + std::string(second) +
+                  "' in column 'zone' is not the zone of line 2, '" + first + "'"));
+  }
 }
 
 // Property: what is measured in microseconds and taken for seconds is remarked upon, with a way out
@@ -240,6 +380,18 @@ TEST(ScanReader, ReadsDegreesInEveryForm) {
   EXPECT_EQ(last("49.5,S,8.25,W", "49.501,S,8.251,W", "lat,ns,lon,ew"), south);
   EXPECT_EQ(last("49.5,S,8.25,W", "49.501,S,8.251,W", "Latitude,N/S,Longitude,E/W"), south);
   EXPECT_EQ(last("49.5,N,8.25,E", "49.501,N,8.251,E", "lat,ns,lon,ew"), expected);
+  // Degrees and minutes in one number, by the heading, the digits, or their size.
+  EXPECT_TRUE(last("4930.000,N,00815.000,E", "4930.060,N,00815.060,E", "lat,ns,lon,ew")
+                  .isApprox(expected, 1e-9));
+  EXPECT_TRUE(last("4930.000,N,815.000,E", "4930.060,N,815.060,E", "lat,ns,lon,ew")
+                  .isApprox(expected, 1e-9));
+  EXPECT_TRUE(last("4930.000,815.000", "4930.060,815.060", "lat (ddmm.mmmm),lon (dddmm.mmmm)")
+                  .isApprox(expected, 1e-9));
+  EXPECT_EQ(last("0030.000,N,00015.000,E", "0030.060,N,00015.060,E", "lat,ns,lon,ew"),
+            last("0.5,0.25", "0.501,0.251"));
+  EXPECT_THAT(message_of("t,lat,ns,lon,ew\n0,4930.0,N,00815.0,E\n1,4960.0,N,00815.0,E\n",
+                         [](const auto& path) { ScanReader reader(path.string()); }),
+              HasSubstr("'4960.0' in column 'lat' is not degrees and minutes as ddmm.mmmm"));
   EXPECT_EQ(last("49.5S,8.25W", "49.501S,8.251W", "LATITUDE N/S,LONGITUDE E/W"), south);
   EXPECT_THAT(message_of("t,lat,ns,lon,ew\n0,49.5,N,8.25,E\n1,49.5,?,8.25,E\n",
                          [](const auto& path) { ScanReader reader(path.string()); }),

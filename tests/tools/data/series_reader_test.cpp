@@ -53,6 +53,11 @@ TEST(SeriesReader, FindsWhatIsMeasured) {
   EXPECT_EQ(rows_of("t,height\n0,5\n1,6\n"), "0:5 1:6 ");
   EXPECT_EQ(rows_of("sensor,t,bearing (deg)\na,0,350\na,1,355\n"), "0:350 1:355 ");
   EXPECT_EQ(rows_of("t,a,b\n0,5,7\n1,6,8\n", {.columns = "z=b"}), "0:7 1:8 ");
+  EXPECT_EQ(rows_of("t,a_x,a_y,b_x,b_y\n0,5,7,1,1\n1,6,8,1,1\n", {.columns = "x=2,y=3"}),
+            "0:5,7 1:6,8 ");
+  EXPECT_EQ(rows_of("scorer,n,n,n,n\nbodyparts,a,a,b,b\ncoords,x,y,x,y\n0,5,7,1,1\n1,6,8,1,1\n",
+                    {.columns = "x=a x,y=a y", .frame_rate = 1.0}),
+            "0:5,7 1:6,8 ");
   EXPECT_EQ(rows_of("date,steps\n1970-01-01,5\n1970-01-02,6\n"), "0:5 86400:6 ");
 }
 
