@@ -56,7 +56,8 @@ struct Figure {
 struct Style {
   double width = 960.0;     // [pt], 1/72 inch
   double height = 0.0;      // 0: what the panels need
-  int columns = 2;          // of panels
+  double tallest = 0.0;     // of a figure whose panels say its height; 0: any
+  int columns = 2;          // of panels; more of them where it would be taller
   double font_size = 12.0;  // [pt]
   bool dark = false;
   double pixels_per_point = 2.0;  // of a PNG

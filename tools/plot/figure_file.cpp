@@ -33,8 +33,19 @@ int columns_in(const Style& style, const std::vector<Panel>& panels) {
   const auto count = static_cast<int>(panels.size());
   const bool has_wide =
       std::any_of(panels.begin(), panels.end(), [](const Panel& panel) { return panel.wide; });
-  if (style.height == 0.0 || has_wide) return std::min(style.columns, std::max(1, count));
   constexpr double kBeside = 6.0, kAround = 5.0;  // of what is drawn, in letters
+  const auto is_room_for = [&](int columns) {
+    return style.width / columns > 2.0 * kBeside * style.font_size;
+  };
+  if (style.height == 0.0 || has_wide) {
+    int columns = std::min(style.columns, std::max(1, count));
+    const auto is_too_tall = [&] {
+      const int rows = (count + columns - 1) / columns;
+      return style.tallest > 0.0 && rows * kPanelAspect * style.width / columns > style.tallest;
+    };
+    while (is_too_tall() && is_room_for(columns + 1)) ++columns;
+    return columns;
+  }
   const auto flatness = [&](int columns) {
     const int rows = (count + columns - 1) / columns;
     const double width = style.width / columns - kBeside * style.font_size;
@@ -43,7 +54,7 @@ int columns_in(const Style& style, const std::vector<Panel>& panels) {
   };
   int best = 1;
   for (int columns = 2; columns <= count; ++columns) {
-    if (style.width / columns <= 2.0 * kBeside * style.font_size) break;
+    if (!is_room_for(columns)) break;
     if (flatness(columns) < flatness(best)) best = columns;
   }
   return best;
@@ -108,12 +119,21 @@ void draw(cairo_t* cairo, const Figure& figure, const Style& style, const Layout
 }  // namespace
 
 std::optional<Style> style_named(const std::string& name) {
+  constexpr double kPage = 680.0;  // height of the text on A4 and Letter [pt]
   if (name == "screen") return Style{};
   if (name == "column") {
-    return Style{.width = 252.0, .columns = 1, .font_size = 7.0, .pixels_per_point = 600.0 / 72.0};
+    return Style{.width = 252.0,
+                 .tallest = kPage,
+                 .columns = 1,
+                 .font_size = 7.0,
+                 .pixels_per_point = 600.0 / 72.0};
   }
   if (name == "page") {
-    return Style{.width = 515.0, .columns = 2, .font_size = 7.5, .pixels_per_point = 300.0 / 72.0};
+    return Style{.width = 515.0,
+                 .tallest = kPage,
+                 .columns = 2,
+                 .font_size = 7.5,
+                 .pixels_per_point = 300.0 / 72.0};
   }
   if (name == "slide") return Style{.width = 960.0, .height = 540.0, .font_size = 12.0};
   return std::nullopt;

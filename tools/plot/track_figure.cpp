@@ -125,8 +125,12 @@ Panel positions(const Data& data, const std::string& title, const std::string& y
   }
   if (!seen.x.empty()) panel.curves.push_back(std::move(seen));
   const bool named = along_path && data.tracks.size() <= kFew;  // one legend for all panels
+  const auto name_of = [&](std::size_t i) -> std::string {
+    if (named) return "track " + data.tracks[i].name;
+    return along_path && i == 0 ? fmt::format("one of {} tracks", data.tracks.size()) : "";
+  };
   for (std::size_t i = 0; i < data.tracks.size(); ++i) {
-    panel.curves.push_back({.name = named ? "track " + data.tracks[i].name : "",
+    panel.curves.push_back({.name = name_of(i),
                             .x = x_of(data.tracks[i]),
                             .y = y(data.tracks[i]),
                             .mark = Mark::kLine,

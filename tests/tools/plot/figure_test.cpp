@@ -114,6 +114,23 @@ TEST(Figure, IsWrittenInThreeFormatsWithTheSameBytes) {
   }
 }
 
+// Property: a figure for paper is no taller than the text on a page, however many panels it has.
+TEST(Figure, FitsOnAPage) {
+  const ScratchFolder folder;
+  for (const char* size : {"column", "page"}) {
+    for (const std::size_t count : {1U, 4U, 12U, 17U}) {
+      Figure figure = waves();
+      figure.panels.resize(count, figure.panels.front());
+      const auto path = folder.path() / "a.svg";
+      write_figure(path, figure, style_named(size).value());
+      const std::string text = bytes_of(path);
+      const std::size_t at = text.find("height=\"");
+      ASSERT_NE(at, std::string::npos);
+      EXPECT_LE(std::stod(text.substr(at + 8)), 700.0) << size << " " << count;
+    }
+  }
+}
+
 std::vector<std::string> titles_of(const Figure& figure) {
   std::vector<std::string> titles;
   for (const Panel& panel : figure.panels) titles.push_back(panel.title);
@@ -142,6 +159,21 @@ TEST(TrackFigure, ShowsErrorsOfMatchedTracks) {
   EXPECT_THAT(nees.curves[0].y, ElementsAre(2.25, 4.0));
   EXPECT_THAT(figure.panels[3].curves[0].y, ElementsAre(3.0, 0.0));
   EXPECT_THAT(figure.panels[3].bands[0].high, ElementsAre(2.0, 2.0));
+}
+
+// Derived: more tracks than a legend can name are counted by it.
+TEST(TrackFigure, CountsManyTracksInTheLegend) {
+  std::string rows = "t,track_id,x,y\n";
+  for (int i = 0; i < 12; ++i) rows += "0," + std::to_string(i) + ",0,0\n";
+  const ScratchFolder folder;
+  const Figure figure = figure_of({.tracks = folder.write("tracks.csv", rows),
+                                   .truth = {},
+                                   .detections = {},
+                                   .panels = {"path"},
+                                   .title = {},
+                                   .reading = {}});
+  EXPECT_EQ(figure.panels.at(0).curves.at(0).name, "one of 12 tracks");
+  EXPECT_EQ(figure.panels[0].curves.at(1).name, "");
 }
 
 // Derived: times of a clock are shown since the first of them.
