@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 
@@ -284,10 +283,10 @@ std::optional<std::size_t> struck_as_well(const FlightState& state, const RoundB
   return std::nullopt;
 }
 
-/// The impact law for surfaces that are hit at once.
+/// The impact law for surfaces that are hit at once, with restitution or without.
 /// @returns the impulse per mass [m/s]
 Vec2 strike(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces,
-            std::initializer_list<std::size_t> struck) {
+            const std::vector<std::size_t>& struck, bool bouncing) {
   std::vector<Pushed> one{{state.velocity, state.spin, 1.0,
                            1.0 / (body.inertia * body.radius * body.radius), body.radius}};
   std::vector<Touch> touches;
@@ -296,6 +295,7 @@ Vec2 strike(FlightState& state, const RoundBody& body, const std::vector<Surface
     Touch& touch = touches.emplace_back();
     touch.normal = surface.contact(state.position).normal;
     touch.friction = surface.friction.value_or(body.friction);
+    if (!bouncing) continue;
     touch.normal_offset =
         surface.restitution.value_or(body.restitution) * state.velocity.dot(touch.normal);
   }
@@ -348,7 +348,7 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
     if (approach > 0.0) {
       departure = restitution_of(surface) * approach;
       if (const auto other = struck_as_well(state, body, surfaces, surface, approach)) {
-        impulse += body.mass * strike(state, body, surfaces, {surface, *other});
+        impulse += body.mass * strike(state, body, surfaces, {surface, *other}, true);
         may_rest_on(*other, restitution_of(*other) * approach);
       } else {
         const double friction = struck.friction.value_or(body.friction);
@@ -381,6 +381,15 @@ Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
   }
   keep_out(state, surfaces);
   return impulse;
+}
+
+Vec2 stop_wedged(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces) {
+  std::vector<std::size_t> touched;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const double gap = surfaces[i].contact(state.position).distance - body.radius;
+    if (gap <= kTouching) touched.push_back(i);
+  }
+  return body.mass * strike(state, body, surfaces, touched, false);
 }
 
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,

@@ -109,6 +109,11 @@ bool changes_on_supports(const FlightState& before, const FlightState& after, co
 Vec2 bounce(FlightState& state, const FlightRate& free, const RoundBody& body,
             const std::vector<Surface>& surfaces, std::size_t surface);
 
+/// Where a body hits to and fro in a narrow wedge without end: all that it touches takes up what is
+/// left of its motion, at once and without restitution.
+/// @returns the impulse [N s]
+Vec2 stop_wedged(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces);
+
 /// What a sensor may see of a body with these rates of free flight.
 PlanarMotion flight_kinematics(const FlightState& state, const FlightRate& free,
                                const RoundBody& body, const std::vector<Surface>& surfaces);
@@ -298,7 +303,13 @@ void fly(FlightState& state, double from, double to, const RoundBody& body,
     if (log != nullptr && impulse != Vec2::Zero()) {
       log->push_back({time, approach.surface, state.position, impulse});
     }
-    if (impacts > 2 * kMostImpacts) return;  // wedged: it stays where it is until the step's end
+    if (impacts <= 2 * kMostImpacts) continue;
+    // Wedged: it stays where it is until the step's end.
+    const Vec2 rest = stop_wedged(state, body, surfaces);
+    if (log != nullptr && rest != Vec2::Zero()) {
+      log->push_back({time, approach.surface, state.position, rest});
+    }
+    return;
   }
 }
 
