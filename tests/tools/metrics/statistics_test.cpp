@@ -79,36 +79,73 @@ TEST(BatchMeans, KeepsTheMeanOfEverything) {
   EXPECT_DOUBLE_EQ(means.mean(), 12346.0 / 2.0);
 }
 
-/// How often the 95 % interval of 400 values, each `memory` times its predecessor plus noise, holds
-/// the true mean 0.
-double coverage(double memory, int runs) {
+/// What became of the 95 % intervals of many series.
+struct Coverage {
+  int given = 0;
+  int held = 0;  // the true mean
+
+  double share() const { return static_cast<double>(held) / given; }
+  double standard_error() const { return std::sqrt(0.95 * 0.05 / given); }
+};
+
+/// Squared errors on two axes; on each the error is `memory` times its predecessor plus noise.
+Coverage coverage(double memory, int values, int runs) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> noise;
-  int held = 0;
+  const double fresh = std::sqrt(1.0 - memory * memory);
+  Coverage all;
   for (int run = 0; run < runs; ++run) {
     BatchMeans means;
-    double value = noise(random) / std::sqrt(1.0 - memory * memory);
-    for (int i = 0; i < 400; ++i) {
-      means.add(value);
-      value = memory * value + noise(random);
+    double x = noise(random), y = noise(random);
+    for (int i = 0; i < values; ++i) {
+      means.add(x * x + y * y);
+      x = memory * x + fresh * noise(random);
+      y = memory * y + fresh * noise(random);
     }
     const auto interval = means.confidence95();
-    held += interval->low <= 0.0 && 0.0 <= interval->high ? 1 : 0;
+    if (!interval) continue;
+    ++all.given;
+    all.held += interval->low <= 2.0 && 2.0 <= interval->high ? 1 : 0;
   }
-  return static_cast<double>(held) / runs;
+  return all;
 }
 
-// Property: coverage of white noise within 5 standard errors of 95 %; of a series that remembers
-// about ten values still above 85 %, where an interval that took them as independent holds 45 %.
-TEST(BatchMeans, CoversTheMeanOfACorrelatedSeries) {
-  constexpr int kRuns = 2000;
-  const double standard_error = std::sqrt(0.95 * 0.05 / kRuns);
-  EXPECT_NEAR(coverage(0.0, kRuns), 0.95, 5.0 * standard_error);
-  EXPECT_GT(coverage(0.9, kRuns), 0.85);
+// Property: an interval of 95 % holds the true mean square in 93 to 97 % of the series, give or
+// take four standard errors of that many series, whatever their length and memory m, down to those
+// that are worth n (1 − m²)/(1 + m²) = 30 independent squares.
+TEST(BatchMeans, CoversTheMeanOfSquaredErrors) {
+  for (const double memory : {0.0, 0.5, 0.8, 0.9, 0.95}) {
+    for (const int values : {48, 130, 400, 1000}) {
+      const double worth = values * (1.0 - memory * memory) / (1.0 + memory * memory);
+      if (worth < 30.0) continue;
+      const Coverage seen = coverage(memory, values, 500);
+      EXPECT_GE(seen.given, 460) << memory << ", " << values;
+      EXPECT_GT(seen.share(), 0.93 - 4.0 * seen.standard_error()) << memory << ", " << values;
+      EXPECT_LT(seen.share(), 0.97 + 4.0 * seen.standard_error()) << memory << ", " << values;
+    }
+  }
+}
+
+// Property: a series that is worth one or two independent values is seldom taken for more, and its
+// mean has no interval.
+TEST(BatchMeans, SaysWhereTheMeanIsNotKnown) {
+  EXPECT_LT(coverage(0.99, 100, 400).given, 0.05 * 400);
+  BatchMeans few;
+  for (int i = 0; i < 15; ++i) few.add(i);
+  EXPECT_FALSE(few.confidence95());
+}
+
+// Derived: the error of the mean of equal values is none.
+TEST(BatchMeans, KnowsTheMeanOfEqualValues) {
+  BatchMeans means;
+  for (int i = 0; i < 100; ++i) means.add(0.0);
+  ASSERT_TRUE(means.confidence95());
+  EXPECT_EQ(means.confidence95()->low, 0.0);
+  EXPECT_EQ(means.confidence95()->high, 0.0);
 }
 
 // Derived: a first-order series with memory m is worth n (1 − m) / (1 + m) independent values; the
-// estimate from 10 to 19 batches scatters by a third or so, and is averaged over 300 runs.
+// estimate from 32 to 63 batches scatters by a fifth or so, and is averaged over 300 runs.
 TEST(BatchMeans, CountsIndependentValues) {
   std::mt19937_64 random(12);
   std::normal_distribution<double> noise;
