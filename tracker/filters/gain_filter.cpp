@@ -36,10 +36,24 @@ bool is_near(double value, double goal) {
 }
 
 /// The best gain for an error known: Kalman's, on each axis.
+/// @param p  covariance of the position's error with those of position, velocity and acceleration
+template <class Axes>
+AxisGain<Axes> optimal_gain(const AxisGain<Axes>& p, const Axes& variance) {
+  const Axes total = (p.x + variance).max(std::numeric_limits<double>::min());
+  return {p.x / total, p.v / total, p.a / total};
+}
 template <class Axes>
 AxisGain<Axes> optimal_gain(const AxisCovariance<Axes>& p, const Axes& variance) {
-  const Axes total = (p.xx + variance).max(std::numeric_limits<double>::min());
-  return {p.xx / total, p.xv / total, p.xa / total};
+  return optimal_gain(AxisGain<Axes>{p.xx, p.xv, p.xa}, variance);
+}
+
+/// The error of a doubtful residual is taken to be as much larger as it takes for the pull of the
+/// limit itself (Huber 1964).
+/// @param error  variance of the position before the correction
+template <class Axes>
+Axes doubted(const Axes& residual, const Axes& error, const Axes& variance, double huber) {
+  const Axes s = error + variance;
+  return (std::sqrt((residual.square() / s).sum()) / huber) * s - error;
 }
 
 Gains larger(const Gains& a, const Gains& b) {
@@ -114,12 +128,20 @@ bool GainFilter<D>::start(const Vector& z, const Matrix& covariance) {
                                design_->errors.initial_acceleration);
   }
   belief_ = noise_ = covariance_;
+  left_ = {variance, Axes::Zero(), Axes::Zero()};
   elapsed_ = 0.0;
-  updates_ = 1;
+  updates_ = instants_ = 1;
   misses_ = 0;
   started_ = true;
   starting_up_ = design_->schedule.start_up != StartUp::kNone;
   on_schedule_ = true;
+  return true;
+}
+
+template <int D>
+bool GainFilter<D>::start_at(const Kinematics<D>& first) {
+  if (!first.is_finite() || !start(first.position)) return refuse_measurement();
+  if (design_->schedule.start_up == StartUp::kNone) prior_ = estimate_ = first;
   return true;
 }
 
@@ -202,7 +224,7 @@ auto GainFilter<D>::scheduled() const -> Scheduled {
                            ? design_->schedule.steady
                            : design_->schedule.at(interval);
   const int order = design_->schedule.steady.order;
-  const int n = updates_ + 1;
+  const int n = instants_ + 1;
   if (!starting_up_) return {steady, interval};
   // A polynomial through the first points is the only unbiased choice, whatever the steady gains.
   if (n <= order + 1) return {start_up_gains(order, n), elapsed_};
@@ -220,12 +242,11 @@ auto GainFilter<D>::as_scheduled(const AxisGain<Axes>& gain) const -> Scheduled 
 /// target has moved otherwise than believed. A measurement too rough to see it does not speak
 /// against it.
 template <int D>
-bool GainFilter<D>::doubts(const Vector& residual, const AxisCovariance<Axes>& belief,
-                           const Axes& variance) {
+bool GainFilter<D>::doubts(const Vector& residual, const Axes& error, const Axes& variance) {
   constexpr int kMostInARow = 2;
-  if (updates_ <= design_->schedule.steady.order) return false;
+  if (instants_ <= design_->schedule.steady.order) return false;
   const auto would_be_far = [&](const Vector& distance) {
-    return (distance.array().square() / (belief.xx + variance)).sum() >
+    return (distance.array().square() / (error + variance)).sum() >
            design_->errors.huber * design_->errors.huber;
   };
   if (!would_be_far(residual)) {
@@ -245,17 +266,18 @@ bool GainFilter<D>::update(const Vector& z, const Matrix& covariance) {
   if (!z.allFinite() || !is_variance(variance)) return refuse_measurement();
   const Vector residual = z - estimate_.position;
   if (design_->schedule.source == GainSource::kCovariance) {
-    const bool doubtful = limits_residuals() && doubts(residual, covariance_, variance);
+    const bool doubtful = limits_residuals() && doubts(residual, covariance_.xx, variance);
     return update_by(covariance_, z, variance, doubtful);
   }
   // A second sensor at the same instant has no place in a table.
-  const bool same_instant = updates_ > 0 && elapsed_ == 0.0;
-  if (!design_->has_belief) {
-    return same_instant ? update_by(covariance_, z, variance, false) : update_by_table(z, variance);
+  if (elapsed_ == 0.0 && on_schedule_) {
+    const bool doubtful = limits_residuals() && doubts(residual, left_.x, variance);
+    return update_at_same_instant(z, variance, doubtful);
   }
-  const bool doubtful =
-      limits_residuals() && doubts(residual, is_steady() ? settled_belief() : belief_, variance);
-  if (same_instant || doubtful) leave_schedule();
+  if (!design_->has_belief) return update_by_table(z, variance);
+  const bool doubtful = limits_residuals() &&
+                        doubts(residual, (is_steady() ? settled_belief() : belief_).xx, variance);
+  if (doubtful) leave_schedule();
   if (on_schedule_) return update_by_table(z, variance);
   if (!update_by(belief_, z, variance, doubtful)) return false;
   return_to_schedule();
@@ -276,25 +298,43 @@ bool GainFilter<D>::update_by_table(const Vector& z, const Axes& variance) {
     belief_ = corrected(belief_, optimal_gain(belief_, variance), variance);
   }
   const int steady_from = design_->schedule.start_up == StartUp::kTwoPoint ? 2 : gains.order + 1;
-  if (starting_up_ && updates_ >= steady_from) {
+  if (starting_up_ && instants_ >= steady_from) {
     starting_up_ = design_->schedule.start_up == StartUp::kGrowingMemory &&
-                   !reaches(design_->schedule.steady, start_up_gains(gains.order, updates_));
+                   !reaches(design_->schedule.steady, start_up_gains(gains.order, instants_));
   }
   return true;
 }
 
-/// Corrects with the best gain for an error known. The error of a doubtful residual is taken to be
-/// as much larger as it takes for the pull of the limit itself (Huber 1964).
+/// Goes on from the gains of the last update as if they had been the best ones: then the two
+/// measurements make the same of the prediction as their mean. From the first instant the table
+/// goes on, later the gains follow the belief.
+template <int D>
+bool GainFilter<D>::update_at_same_instant(const Vector& z, const Axes& variance,
+                                           bool is_doubtful) {
+  const Axes residual = (z - estimate_.position).array();
+  const Axes trusted =
+      is_doubtful ? doubted(residual, left_.x, variance, design_->errors.huber) : variance;
+  const AxisGain<Axes> gain = optimal_gain(left_, trusted);
+  if (!correct(z, trusted, gain)) return false;
+  used_ = as_scheduled(gain);
+  if (instants_ <= 1) {
+    belief_ = covariance_;
+  } else if (design_->has_belief) {
+    leave_schedule();
+    belief_ = corrected(belief_, optimal_gain(belief_, trusted), trusted);
+    return_to_schedule();
+  }
+  return true;
+}
+
+/// Corrects with the best gain for an error known.
 /// @param belief  the error, which is corrected, too; may be covariance_ itself
 template <int D>
 bool GainFilter<D>::update_by(AxisCovariance<Axes>& belief, const Vector& z, const Axes& variance,
                               bool is_doubtful) {
-  Axes trusted = variance;
-  if (is_doubtful) {
-    const Axes s = belief.xx + variance;
-    const double distance = std::sqrt(((z - estimate_.position).array().square() / s).sum());
-    trusted = (distance / design_->errors.huber) * s - belief.xx;
-  }
+  const Axes residual = (z - estimate_.position).array();
+  const Axes trusted =
+      is_doubtful ? doubted(residual, belief.xx, variance, design_->errors.huber) : variance;
   const AxisGain<Axes> gain = optimal_gain(belief, trusted);
   const bool is_own = &belief == &covariance_;
   const AxisCovariance<Axes> next = is_own ? belief : corrected(belief, gain, trusted);
@@ -331,7 +371,9 @@ bool GainFilter<D>::correct(const Vector& z, const Axes& variance, const AxisGai
   estimate_ = next;
   covariance_ = covariance;
   if (has_process_noise()) noise_ = corrected(noise_, gain, variance);
+  left_ = {gain.x * variance, gain.v * variance, gain.a * variance};
   residual_ = residual;
+  if (elapsed_ > 0.0) ++instants_;
   elapsed_ = 0.0;
   misses_ = 0;
   ++updates_;

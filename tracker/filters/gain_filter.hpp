@@ -73,13 +73,18 @@ class GainFilter {
   bool start(const Vector& z, const Matrix& covariance);
   bool start(const Vector& z) { return start(z, nominal_covariance()); }
 
+  /// Takes the first measurement as the position, and where nothing learns them at the start
+  /// (StartUp::kNone) the derivatives as guessed.
+  bool start_at(const Kinematics<D>& first);
+
   /// Takes a guess as certain and the start-up as done.
   void start_from(const Kinematics<D>& guess);
 
   /// Carries the state dt seconds on. @returns false if refused
   bool predict(double dt);
 
-  /// Corrects the prediction with a measured position [m]; the first one starts the filter.
+  /// Corrects the prediction with a measured position [m]; the first one starts the filter. Several
+  /// at one instant count as their mean, weighted by their variances.
   /// @param covariance  of the measurement's error [m²]; its diagonal enters the predicted error
   /// @returns false if refused
   bool update(const Vector& z, const Matrix& covariance);
@@ -151,12 +156,13 @@ class GainFilter {
   const AxisCovariance<Axes>& noise() const { return has_process_noise() ? noise_ : covariance_; }
   bool limits_residuals() const { return std::isfinite(design_->errors.huber); }
   bool is_steady() const { return on_schedule_ && !starting_up_; }
-  bool doubts(const Vector& residual, const AxisCovariance<Axes>& belief, const Axes& variance);
+  bool doubts(const Vector& residual, const Axes& error, const Axes& variance);
   AxisCovariance<Axes> settled_belief() const;
   void carry_belief(double dt);
   void leave_schedule();
   void return_to_schedule();
   bool update_by_table(const Vector& z, const Axes& variance);
+  bool update_at_same_instant(const Vector& z, const Axes& variance, bool is_doubtful);
   bool update_by(AxisCovariance<Axes>& belief, const Vector& z, const Axes& variance,
                  bool is_doubtful);
   bool correct(const Vector& z, const Axes& variance, const AxisGain<Axes>& gain);
@@ -172,7 +178,10 @@ class GainFilter {
   Scheduled used_;
   double interval_;       // time of the last prediction
   double elapsed_ = 0.0;  // time since the last measurement used
+  // Covariance of the position with the state, were the gains of the last update the best ones.
+  AxisGain<Axes> left_ = {Axes::Zero(), Axes::Zero(), Axes::Zero()};
   int updates_ = 0;
+  int instants_ = 0;  // of updates
   int misses_ = 0;
   int far_in_a_row_ = 0;              // residuals beyond the Huber limit, on one side
   Vector last_far_ = Vector::Zero();  // the latest of them

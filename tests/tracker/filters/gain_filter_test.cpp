@@ -189,6 +189,80 @@ TEST(GainFilter, WeighsASecondSensorAtTheSameInstant) {
   EXPECT_NEAR(filter.position_sigma()[0], std::sqrt(0.5), 1e-15);
 }
 
+/// Filters with a schedule of every kind, for gains of every order.
+std::vector<GainFilter<1>> filters_of_every_schedule() {
+  std::vector<GainFilter<1>> all;
+  for (const Gains& gains :
+       {Gains::of_g(0.3), Gains::of_gh(0.3, 0.05), Gains::of_ghk(0.5, 0.15, 0.02)}) {
+    const ErrorModel errors{.sigma = 2.0, .initial_speed = 30.0, .initial_acceleration = 20.0};
+    for (const StartUp start_up : {StartUp::kGrowingMemory, StartUp::kTwoPoint, StartUp::kNone}) {
+      for (const IrregularTime irregular :
+           {IrregularTime::kFixedGains, IrregularTime::kGainsFromCovariance}) {
+        all.emplace_back(GainSchedule{.steady = gains,
+                                      .interval = 0.5,
+                                      .start_up = start_up,
+                                      .irregular_time = irregular},
+                         errors);
+      }
+    }
+    ErrorModel moving = errors;
+    moving.process_intensity = 3.0;
+    all.emplace_back(
+        GainSchedule{.steady = gains, .interval = 0.5, .source = GainSource::kCovariance}, moving);
+  }
+  return all;
+}
+
+// Derived: before time has passed, n measurements of variance σ² are one of their mean, of variance
+// σ²/n: at that instant and ever after, whatever the order and the start-up.
+TEST(GainFilter, TakesMeasurementsOfItsFirstInstantForTheirMean) {
+  const std::vector<double> first = {1.0, 3.0, 2.5, 7.0};
+  for (const GainFilter<1>& waiting : filters_of_every_schedule()) {
+    GainFilter<1> each = waiting, mean = waiting;
+    for (const double z : first) each.update(Scalar(z));
+    mean.update(Scalar(3.375), Scalar(4.0 / 4.0));
+    for (int step = 0; step < 30; ++step) {
+      ASSERT_NEAR(each.estimate().position[0], mean.estimate().position[0], 1e-11) << step;
+      ASSERT_NEAR(each.estimate().velocity[0], mean.estimate().velocity[0], 1e-11) << step;
+      ASSERT_NEAR(each.estimate().acceleration[0], mean.estimate().acceleration[0], 1e-10);
+      ASSERT_NEAR(each.position_sigma()[0], mean.position_sigma()[0], 1e-11) << step;
+      for (GainFilter<1>* filter : {&each, &mean}) {
+        filter->predict(0.5);
+        filter->update(Scalar(0.4 * step * step));
+      }
+    }
+  }
+}
+
+// Property: at any age two measurements of one instant count inversely to their variances.
+TEST(GainFilter, WeighsMeasurementsOfOneInstantByTheirVariances) {
+  for (const GainFilter<1>& waiting : filters_of_every_schedule()) {
+    for (const int age : {1, 2, 3, 4, 7, 60}) {
+      const auto position_after = [&](double z1, double z2) {
+        GainFilter<1> filter = waiting;
+        for (int step = 1; step < age; ++step) {
+          filter.update(Scalar(0.1 * step));
+          filter.predict(0.5);
+        }
+        filter.update(Scalar(z1), Scalar(4.0));
+        filter.update(Scalar(z2), Scalar(12.0));
+        return filter.estimate().position[0];
+      };
+      const double none = position_after(0.0, 0.0);
+      EXPECT_NEAR((position_after(1.0, 0.0) - none) / (position_after(0.0, 1.0) - none), 3.0, 1e-9)
+          << waiting.gains_text() << ", age " << age;
+    }
+  }
+}
+
+// Property: a guess that is certain learns nothing from a measurement of its own instant.
+TEST(GainFilter, BelievesACertainGuessAtItsOwnInstant) {
+  GainFilter<1> filter(Gains::of_gh(0.5, 0.2), 1.0, {.position = Scalar(3.0)});
+  EXPECT_TRUE(filter.update(Scalar(5.0)));
+  EXPECT_EQ(filter.estimate().position[0], 3.0);
+  EXPECT_EQ(filter.estimate().velocity[0], 0.0);
+}
+
 // Property: gains for one step are used for that step alone.
 TEST(GainFilter, UsesOverridingGainsOnce) {
   GainFilter<1> filter(Gains::of_gh(0.8, 0.2), 1.0, {});
