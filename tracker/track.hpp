@@ -55,7 +55,7 @@ struct TrackEstimate {
   // What the filter says of the noise in its estimate: what remains of the error when the target
   // moves as the filter assumes. A Kalman filter counts manoeuvres as noise; one with designed
   // gains lags behind them.
-  Gains gains;                                            // in the steady state
+  std::optional<Gains> gains;  // in the steady state, if the filter settles
   Eigen::Vector2d noise_sigma = Eigen::Vector2d::Zero();  // [m]
   std::optional<DesignedStep> designed;
 };

@@ -25,12 +25,12 @@ bool is_below(const Track& track, const TrackerConfig& config) {
 }
 
 /// Whether the prediction is a mixture, which no single covariance describes.
-bool is_mixed(const Track& track) { return std::holds_alternative<ImmFilter>(track.filter); }
+bool is_mixed(const Track& track) { return std::holds_alternative<ImmFilter<2>>(track.filter); }
 
 /// Of the position's error, about the estimate, if the mode that knows it least were the right one.
-Eigen::Matrix2d widest_covariance(const ImmFilter& mixed) {
+Eigen::Matrix2d widest_covariance(const ImmFilter<2>& mixed) {
   Eigen::Matrix2d widest = mixed.innovation_covariance(Eigen::Matrix2d::Zero());
-  for (const ImmFilter::Mode& mode : mixed.modes()) {
+  for (const ImmFilter<2>::Mode& mode : mixed.modes()) {
     const Eigen::Vector2d d = mode.filter.estimate().position - mixed.estimate().position;
     const Eigen::Matrix2d own =
         mode.filter.innovation_covariance(Eigen::Matrix2d::Zero()) + d * d.transpose();
@@ -57,7 +57,7 @@ void predict(Track& track, double dt) {
 }
 
 Prediction reach(const Track& track) {
-  const auto* const mixed = std::get_if<ImmFilter>(&track.filter);
+  const auto* const mixed = std::get_if<ImmFilter<2>>(&track.filter);
   if (mixed == nullptr) return track.prediction;
   return {track.prediction.position, widest_covariance(*mixed)};
 }

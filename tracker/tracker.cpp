@@ -83,7 +83,7 @@ TrackSnapshot snapshot(const TrackerState& state) {
          .sigma = position_sigma(track.filter),
          .covariance = innovation_covariance(track.filter, Eigen::Matrix2d::Zero()),
          .innovation_covariance = track.innovation_covariance,
-         .gains = steady_gains(track.filter).value_or(Gains{}),
+         .gains = steady_gains(track.filter),
          .noise_sigma = noise_sigma(track.filter),
          .designed = designed_step(track.filter)});
   }

@@ -244,6 +244,7 @@ struct SeriesFilter {
   template <class Report>
   void check(Report&& report) const {
     if (name.empty()) report("name", "must not be empty");
+    if (const auto flaw = flaw_on_one_axis(model)) report("filter", *flaw);
   }
 };
 

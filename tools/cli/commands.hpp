@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ghtrack::cli {
@@ -111,6 +112,9 @@ struct FilterCommandOptions {
   DataOptions data;
   bool json = false;
 };
+
+/// What --filter may name: the kinds of AxisFilterConfig, and two rules that are known as filters.
+std::vector<std::string_view> filter_names();
 
 struct GainsCommandOptions {
   std::string rule;

@@ -73,13 +73,19 @@ class Errors {
 /// CSV on standard output, written in large blocks.
 class Output {
  public:
-  void header(std::size_t axes, bool with_acceleration) {
+  void header(std::size_t axes, bool with_acceleration, const std::vector<std::string>& models) {
     text_ += "k,t";
     std::vector<const char*> names = {"z", "x_pred", "dx_pred", "residual", "x", "dx"};
     if (with_acceleration) names.insert(names.end(), {"ddx_pred", "ddx"});
     for (const char* name : names) {
       for (std::size_t axis = 0; axis < axes; ++axis)
         text_ += fmt::format(",{}{}", name, axes == 1 ? "" : kAxes[axis]);
+    }
+    for (const std::string& model : models) {
+      for (std::size_t axis = 0; axis < axes; ++axis) {
+        text_ += ',';
+        append_text(text_, fmt::format("p_{}{}", model, axes == 1 ? "" : kAxes[axis]));
+      }
     }
     text_ += '\n';
   }
@@ -122,7 +128,7 @@ class Session {
   void run() {
     tell_of_unused_options();
     warn_of_unstable_gains();
-    if (!options_.json) output_.header(rows_.axes(), plan_.order == 2);
+    if (!options_.json) output_.header(rows_.axes(), plan_.order == 2, plan_.models);
     while (const std::optional<MeasuredRow> row = rows_.next()) {
       if (row->number % 4096 == 0) stop_if_interrupted();
       process(*row);
@@ -150,6 +156,7 @@ class Session {
   struct Moment {
     std::vector<Kinematics<1>> prior, posterior;
     std::optional<AxisVector> z, residual;
+    std::vector<std::vector<double>> probabilities;  // of the models, by axis
   };
 
   void warn_of_unstable_gains() const {
@@ -222,6 +229,9 @@ class Session {
     } else if (moment.z) {
       start(row, moment);
     }
+    for (std::size_t i = 0; i < rows_.axes() && filter_.is_started(); ++i) {
+      moment.probabilities.push_back(filter_.model_probabilities(i));
+    }
     account(row, moment);
     if (!options_.json) write(row, moment);
   }
@@ -281,6 +291,12 @@ class Session {
     if (plan_.order == 2) {
       kinematics(moment.prior, acceleration);
       kinematics(moment.posterior, acceleration);
+    }
+    for (std::size_t model = 0; model < plan_.models.size(); ++model) {
+      for (std::size_t i = 0; i < rows_.axes(); ++i) {
+        moment.probabilities.empty() ? output_.empty()
+                                     : output_.number(moment.probabilities[i][model]);
+      }
     }
     output_.end_row();
   }

@@ -1,6 +1,7 @@
 // The command line: options in, one command out. The only file that knows CLI11.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -341,8 +342,10 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
   add_data_options(command, options.data);
   command
       .add_option("--filter", options.filter,
-                  "gh, ghk, order0, least-squares, fading-memory, benedict-bordner, kalman-cv, "
-                  "kalman-ca or kalman-1d; or one as in a scene: '{gh: {design: tracking-index}}'")
+                  fmt::format("{}; or one as in a scene: '{{gh: {{design: tracking-index}}}}', "
+                              "'{{imm: {{filters: {{calm: {{order0: {{g: 0.1}}}}, moving: "
+                              "kalman-cv}}}}}}'",
+                              fmt::join(filter_names(), ", ")))
       ->capture_default_str();
   add_number(command, "--g", options.g, kAny, "position gain");
   add_number(command, "--h", options.h, kAny, "velocity gain");
@@ -353,8 +356,11 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
   add_number(command, "--order", options.order, {.least = 0, .most = 2},
              "least-squares, fading-memory: 0, 1 or 2 (default: 1)");
   add_number(command, "--q", options.q, kNotNegative, "Kalman: process noise");
-  add_number(command, "--r", options.r, kPositive, "Kalman: measurement variance");
-  add_number(command, "--p0", options.p0, kNotNegative, "kalman-1d: variance of the initial guess");
+  add_number(command, "--r", options.r, kPositive,
+             "Kalman, or one as in a scene: measurement variance");
+  add_number(command, "--p0", options.p0, kNotNegative,
+             "kalman-1d with --x0: variance of the guess; kalman-cv, kalman-ca: of each part of "
+             "the state");
   add_number(command, "--u", options.u, kAny, "kalman-1d: movement per step (default: 0)");
   command.add_option("--x0", options.x0,
                      "initial guess one step before the first row, one per axis; without it the "

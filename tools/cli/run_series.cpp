@@ -65,6 +65,25 @@ std::string beliefs_as_csv(const SeriesResult& result) {
   return has_beliefs ? csv.text() : std::string();
 }
 
+/// How likely each of several models is after each measurement; empty without any.
+std::string models_as_csv(const SeriesResult& result) {
+  CsvRow csv;
+  bool has_models = false;
+  for (const char* name : {"filter", "k", "model", "probability"}) csv << name;
+  csv.end();
+  for (const SeriesTrack& track : result.tracks) {
+    const auto& [names, probabilities] = track.models;
+    for (std::size_t i = 0; i < probabilities.size(); ++i) {
+      for (std::size_t model = 0; model < names.size(); ++model) {
+        csv << track.filter << track.rows[i].k << names[model] << probabilities[i][model];
+        csv.end();
+        has_models = true;
+      }
+    }
+  }
+  return has_models ? csv.text() : std::string();
+}
+
 /// The measurements of a file, and the scene that reads them from beside itself.
 void write_measurements(const fs::path& folder, SeriesScene& scene, const SeriesResult& result) {
   auto* const given = std::get_if<GivenSeries>(&scene.data);
@@ -146,6 +165,9 @@ void run_series(const SeriesScene& scene, ResultFolder& results, bool plots) {
   if (const std::string beliefs = beliefs_as_csv(result); !beliefs.empty()) {
     write_file(folder / "belief.csv", beliefs);
     write_file(folder / "belief.svg", film::belief_picture(scene, result));
+  }
+  if (const std::string models = models_as_csv(result); !models.empty()) {
+    write_file(folder / "models.csv", models);
   }
   const plot::Figure figure = figure_of(scene, result, folder / "series.csv");
   plot::write_figure(folder / "plot.png", figure, {});

@@ -18,15 +18,14 @@
 namespace ghtrack::cli {
 namespace {
 
-/// The kinds of AxisFilterConfig, and two rules that are known as filters.
-std::vector<std::string_view> filter_names() {
-  auto names = []<class... C>(std::type_identity<std::variant<C...>>) {
-    return std::vector<std::string_view>{C::kind...};
-  }(std::type_identity<AxisFilterConfig>{});
-  names.insert(names.end(),
-               {gain_design::FadingMemory<1>::kind, gain_design::BenedictBordner<1>::kind});
-  return names;
+/// A kind that has no short options of its own, only what a scene says of it.
+bool is_said_by_scenes(std::string_view name) {
+  return name == EkfConfig::kind || name == UkfConfig::kind || name == ImmConfig::kind ||
+         name == MultipleModelConfig::kind || name == DiscreteBayesConfig::kind;
 }
+
+/// {kind: {…}}.
+bool is_configuration(std::string_view text) { return text.find_first_of("{:") != text.npos; }
 
 double need(const FilterCommandOptions& options, const std::optional<double>& value,
             const char* name) {
@@ -92,7 +91,7 @@ std::optional<AxisFilterConfig> configuration(const FilterCommandOptions& option
   const std::string& text = options.filter;
   const auto g = [&] { return need(options, options.g, "--g"); };
   const auto h = [&] { return need(options, options.h, "--h"); };
-  if (text.find_first_of("{:") != std::string::npos) {
+  if (is_configuration(text)) {
     return schema::read_configuration_text<AxisFilterConfig>(text, "--filter");
   }
   if (text == FreeGains<0>::kind) return with_gains<0>(Free<0>{.g = g()}, are_timed);
@@ -111,15 +110,19 @@ std::optional<AxisFilterConfig> configuration(const FilterCommandOptions& option
            : order == 1 ? fading_memory<1>(theta, are_timed)
                         : fading_memory<2>(theta, are_timed);
   }
-  if (text == DiscreteBayesConfig::kind) return DiscreteBayesConfig{};
   if (text == LeastSquaresConfig::kind) return LeastSquaresConfig{need_order(options)};
   if (text == ScalarKalmanConfig::kind) {
-    return ScalarKalmanConfig{.p0 = need_variance(options, options.p0, "--p0"),
+    const bool has_guess = !options.x0.empty();
+    return ScalarKalmanConfig{.p0 = has_guess ? need_variance(options, options.p0, "--p0") : 0.0,
                               .q = need_variance(options, options.q, "--q"),
                               .r = need_variance(options, options.r, "--r"),
                               .u = options.u.value_or(0.0)};
   }
   if (text == KalmanCvConfig::kind || text == KalmanCaConfig::kind) return std::nullopt;
+  if (is_said_by_scenes(text)) {
+    return schema::read_configuration_text<AxisFilterConfig>(fmt::format("{{{}: {{}}}}", text),
+                                                             "--filter");
+  }
   throw UsageError(fmt::format("filter: unknown filter '{}'{}", printable(text),
                                hint(text, "filters", filter_names())));
 }
@@ -141,10 +144,21 @@ KalmanFilter<Order, 1> kalman(const FilterCommandOptions& options, double dt,
 
 }  // namespace
 
+std::vector<std::string_view> filter_names() {
+  auto names = []<class... C>(std::type_identity<std::variant<C...>>) {
+    return std::vector<std::string_view>{C::kind...};
+  }(std::type_identity<AxisFilterConfig>{});
+  names.insert(names.end(),
+               {gain_design::FadingMemory<1>::kind, gain_design::BenedictBordner<1>::kind});
+  return names;
+}
+
 std::vector<std::string_view> unused_options(const FilterCommandOptions& options) {
   const std::string& filter = options.filter;
   const bool is_kalman = filter == KalmanCvConfig::kind || filter == KalmanCaConfig::kind;
   const bool is_scalar = filter == ScalarKalmanConfig::kind;
+  const bool weighs = is_configuration(filter) ||
+                      (is_said_by_scenes(filter) && filter != DiscreteBayesConfig::kind);
   const bool has_g = filter == FreeGains<0>::kind || filter == FreeGains<1>::kind ||
                      filter == FreeGains<2>::kind ||
                      filter == gain_design::BenedictBordner<1>::kind;
@@ -162,8 +176,9 @@ std::vector<std::string_view> unused_options(const FilterCommandOptions& options
         {"--theta", options.theta.has_value(), fades},
         {"--order", options.order.has_value(), fades || filter == LeastSquaresConfig::kind},
         {"--q", options.q.has_value(), is_kalman || is_scalar},
-        {"--r", options.r.has_value(), is_kalman || is_scalar},
-        {"--p0", options.p0.has_value(), is_kalman || is_scalar},
+        {"--r", options.r.has_value(), is_kalman || is_scalar || weighs},
+        {options.x0.empty() ? "--p0 without --x0" : "--p0", options.p0.has_value(),
+         is_kalman || (is_scalar && !options.x0.empty())},
         {"--u", options.u.has_value(), is_scalar}}) {
     if (option.is_given && !option.is_used) unused.push_back(option.name);
   }
@@ -177,6 +192,7 @@ FilterPlan::FilterPlan(const FilterCommandOptions& options, std::size_t axes, bo
   }
   config = configuration(options, are_timed);
   order = config ? order_of(*config) : options.filter == KalmanCaConfig::kind ? 2 : 1;
+  if (config) models = models_of(*config);
   const auto x0 = parse_vector(options.x0, "--x0", axes);
   const auto dx0 = parse_vector(options.dx0, "--dx0", axes);
   const auto ddx0 = parse_vector(options.ddx0, "--ddx0", axes);
@@ -215,11 +231,9 @@ AxisFilter AxisFilters::make(std::size_t axis, const std::optional<double>& firs
                : AxisFilter(kalman<1>(options_, dt_, guess, first.has_value()));
   }
   const double sigma = options_.r ? std::sqrt(need_variance(options_, options_.r, "--r")) : 1.0;
-  if (!first || needs_guess(*plan_.config)) {
-    return make_axis_filter(*plan_.config, sigma, dt_, guess);
-  }
+  if (!first) return make_axis_filter(*plan_.config, sigma, dt_, guess);
   AxisFilter filter = make_axis_filter(*plan_.config, sigma, dt_, std::nullopt);
-  ghtrack::start(filter, *first);
+  ghtrack::start(filter, guess);
   return filter;
 }
 

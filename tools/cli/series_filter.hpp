@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct FilterPlan {
   std::vector<Kinematics<1>> guess;        // by axis; derivatives without --x0, too
   std::optional<AxisFilterConfig> config;  // nothing: the textbook's Kalman filter of --q and --r
   int order = 1;
+  std::vector<std::string> models;  // whose probabilities are told; none of a single filter
 };
 
 /// Those of the short options that were given and that the filter makes nothing of.
@@ -48,6 +50,10 @@ class AxisFilters {
   /// Of the last update: measured minus expected, by axis.
   AxisVector residual() const;
 
+  /// How likely each of several models is on an axis, in the order of models_of().
+  std::vector<double> model_probabilities(std::size_t axis) const {
+    return ghtrack::model_probabilities(axes_[axis]);
+  }
   const Kinematics<1>& estimate(std::size_t axis) const { return ghtrack::estimate(axes_[axis]); }
   Refusals refusals() const;
 

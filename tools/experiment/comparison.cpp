@@ -141,9 +141,7 @@ class CellReduction {
     const bool same_for_all =
         filters.size() == 1 && filters.contains(std::string(TrackerConfig::kDefaultFilter));
     if (regime.empty() && !same_for_all) return "";
-    const Filter& filter = trial_.design(contender).filter_for(regime, 0);
-    if (std::holds_alternative<MultipleModelFilter>(filter)) return "multiple-model";
-    return std::string(name(filter)) + " " + gains_text(filter);
+    return title(trial_.design(contender).filter_for(regime, 0));
   }
 
   ErrorCurve curve(std::size_t contender, std::size_t regime) const {

@@ -271,7 +271,7 @@ class RegimeTuner {
     const SampleMean mean = mean_of(rmse, Average::kRootMeanSquare);
     const PairedDifference difference =
         paired_difference(rmse, winner, Average::kRootMeanSquare, 0.95);
-    const bool several = std::holds_alternative<MultipleModelFilter>(filter);
+    const bool several = std::holds_alternative<MultipleModelFilter<2>>(filter);
     return {.origin = candidate.origin,
             .filter = several ? "multiple-model" : std::string(name(filter)),
             .gains = several ? "" : gains_text(filter),

@@ -201,7 +201,7 @@ bool needs_extent(const WorldScene& scene) {
 
 render::PanelDrawing panel_of(const Contender& contender) {
   const Filter& filter = contender.tracker.design().filter_for(TrackerConfig::kDefaultFilter, 0);
-  return {.name = contender.name, .gains = fmt::format("{} {}", name(filter), gains_text(filter))};
+  return {.name = contender.name, .gains = title(filter)};
 }
 
 }  // namespace ghtrack::film

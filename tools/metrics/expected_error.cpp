@@ -85,11 +85,11 @@ std::optional<Detection> noisy(const SensedDetection& used, const Vec2& place, S
 }
 
 /// Whether answers depend on the noise but by a limit.
-bool learns_from_noise(const MotionFilter& filter) {
+bool learns_from_noise(const MotionFilter<2>& filter) {
   return !std::holds_alternative<PolynomialMotion>(filter.motion());
 }
-bool learns_from_noise(const MultipleModelFilter&) { return true; }
-bool learns_from_noise(const ImmFilter&) { return true; }
+bool learns_from_noise(const MultipleModelFilter<2>&) { return true; }
+bool learns_from_noise(const ImmFilter<2>&) { return true; }
 bool learns_from_noise(const auto&) { return false; }
 
 /// A filter after some measurements of its own accuracy, about to take another.

@@ -339,11 +339,10 @@ ObjectReport RunMetrics::report_of(const ObjectInfo& object, const ObjectTally& 
       std::max_element(tally.usage.begin(), tally.usage.end(),
                        [](const Usage& a, const Usage& b) { return a.scans < b.scans; });
   report.filter = leading->filter;
-  report.gains = to_text(leading->gains);
+  if (leading->gains) report.gains = to_text(*leading->gains);
   report.rmse_position = std::sqrt(tally.squared_error.mean());
   if (const auto square = tally.squared_error.confidence95()) {
-    report.rmse_position_ci95 =
-        Interval{std::sqrt(std::max(0.0, square->low)), std::sqrt(square->high)};
+    report.rmse_position_ci95 = Interval{std::sqrt(square->low), std::sqrt(square->high)};
   }
   report.rmse_at_clock = tally.squared_known_error.root();
   report.rmse_velocity = root_mean(tally.squared_velocity_error, report.tracked);

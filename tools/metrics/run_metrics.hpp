@@ -142,7 +142,7 @@ class RunMetrics final : public RunObserver {
   /// A filter with its gains, and in how many scans it led.
   struct Usage {
     std::string filter;
-    Gains gains;
+    std::optional<Gains> gains;
     std::int64_t scans = 0;
   };
 
@@ -160,7 +160,7 @@ class RunMetrics final : public RunObserver {
     std::optional<double> nis = {};
     bool uses_detection = false;  // of the object
     std::string filter;
-    Gains gains;
+    std::optional<Gains> gains;
   };
 
   /// Sums over the scans of one object.

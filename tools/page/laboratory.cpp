@@ -170,16 +170,22 @@ std::string Laboratory::theory(std::string_view filter) const {
   const RunMetricsOptions scoring = scoring_for(traits_of(scene_.sensors));
   const auto config = read<FilterConfig>(filter);
   const Filter made = make_filter(config, scoring.sigma, scoring.period);
-  const Gains gains = steady_gains(made).value_or(Gains{});
-  nlohmann::json json = {{"name", name(made)},
-                         {"gains", gains_text(made)},
-                         {"g", gains.g},
-                         {"h", gains.h},
-                         {"k", gains.k},
-                         {"order", gains.order},
-                         {"sigma", scoring.sigma},
-                         {"dt", scoring.period},
-                         {"stable", is_stable(gains)}};
+  const bool is_bank = std::visit(
+      [](const auto& chosen) {
+        return requires { bank_of(chosen); };
+      },
+      config);
+  nlohmann::json json = {{"name", name(made)}, {"settles", !is_bank}};
+  if (is_bank) return json.dump();
+  const Gains gains = steady_gains(made).value();
+  json.update({{"gains", gains_text(made)},
+               {"g", gains.g},
+               {"h", gains.h},
+               {"k", gains.k},
+               {"order", gains.order},
+               {"sigma", scoring.sigma},
+               {"dt", scoring.period},
+               {"stable", is_stable(gains)}});
   if (!is_stable(gains)) return json.dump();
   const VarianceReduction vrf = variance_reduction(gains, scoring.period);
   const Lag lag = steady_lag(gains, scoring.period, 1.0);

@@ -124,6 +124,12 @@
       facts.replaceChildren();
       return;
     }
+    if (!theory.settles) {
+      verdict.dataset.stable = true;
+      verdict.textContent = "Several models: the gains follow what the detections say of each.";
+      facts.replaceChildren();
+      return;
+    }
     verdict.dataset.stable = theory.stable;
     verdict.textContent = theory.stable ? `Stable, ${theory.damping} damped.` : "Unstable.";
     const { order, sigma, dt } = theory;

@@ -118,6 +118,7 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
                     .order = order_of(config.model),
                     .rows = {},
                     .beliefs = {},
+                    .models = {models_of(config.model), {}},
                     .rmse = {},
                     .rmse_without_guess = {}};
   const bool guess_is_first = scene.initial_guess == GuessAt::kFirstMeasurement;
@@ -146,6 +147,9 @@ SeriesTrack follow(const SeriesFilter& config, const SeriesScene& scene,
     const Kinematics<1>& posterior = estimate(filter);
     belief.posterior = belief_of(filter);
     if (!belief.posterior.empty()) track.beliefs.push_back(std::move(belief));
+    if (!track.models.names.empty()) {
+      track.models.probabilities.push_back(model_probabilities(filter));
+    }
     SeriesRow row{
         .k = static_cast<int>(i) + 1,
         .t = now.time.value_or(scene.dt * static_cast<double>(i + (guess_is_first ? 0 : 1))),

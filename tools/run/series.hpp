@@ -25,6 +25,12 @@ struct SeriesBelief {
   discrete_bayes::Belief prior, posterior;
 };
 
+/// How likely several models side by side are after each measurement.
+struct SeriesModels {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> probabilities;  // row by row
+};
+
 /// One filter's way through the series.
 struct SeriesTrack {
   std::string filter;  // name in the scene
@@ -32,6 +38,7 @@ struct SeriesTrack {
   int order = 1;
   std::vector<SeriesRow> rows;
   std::vector<SeriesBelief> beliefs;  // of a histogram filter, as many
+  SeriesModels models;                // none of a single filter
   std::optional<double> rmse;         // √ mean (x − truth)², over all rows
   // The same without a first row that is the guess itself.
   std::optional<double> rmse_without_guess;

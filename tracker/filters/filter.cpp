@@ -2,14 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "sim/portable_math.hpp"
 #include "tracker/filters/filter_design.hpp"
@@ -17,68 +15,11 @@
 namespace ghtrack {
 namespace {
 
-template <int Order>
-SingleFilter make(const GainFilterConfig<Order>& config, double sigma, double dt) {
-  const GainDesign design = designed(config, sigma, dt);
-  return GainFilter<2>(design.schedule, design.errors);
-}
-
-template <int Order>
-SingleFilter make(const KalmanConfig<Order>& config, double sigma, double dt) {
-  return KalmanFilter<Order, 2>(designed(config, sigma, dt));
-}
-
-template <Propagation Way>
-SingleFilter make(const MotionFilterConfig<Way>& config, double sigma, double dt) {
-  return equivalent_motion(config, sigma, dt);
-}
-
-/// From one that hardly manoeuvres to one that follows the measurements.
-std::map<std::string, SingleFilterConfig> bank_of_indices() {
-  std::map<std::string, SingleFilterConfig> bank;
-  const std::array<std::pair<const char*, double>, 3> indices = {
-      {{"steady", 0.01}, {"turning", 0.3}, {"nimble", 10.0}}};
-  for (const auto& [name, index] : indices) {
-    bank[name] = GhConfig{.design = gain_design::TrackingIndex<1>{.index = index}};
-  }
-  return bank;
-}
-
-}  // namespace
-
-const std::map<std::string, SingleFilterConfig>& bank_of(const MultipleModelConfig& config) {
-  return config.filters;
-}
-
-const std::map<std::string, SingleFilterConfig>& bank_of(const ImmConfig& config) {
-  static const std::map<std::string, SingleFilterConfig> by_default = bank_of_indices();
-  return config.filters.empty() ? by_default : config.filters;
-}
-
-namespace {
-
-ImmFilter make(const ImmConfig& config, double sigma, double dt) {
-  std::vector<ImmFilter::Mode> modes;
-  for (const auto& [label, filter] : bank_of(config)) {
-    modes.push_back({label, equivalent_motion(filter, sigma, dt)});
-  }
-  return ImmFilter(std::move(modes), config.switching);
-}
-
-MultipleModelFilter make(const MultipleModelConfig& config, double sigma, double dt) {
-  std::vector<MultipleModelFilter::Model> models;
-  for (const auto& [label, filter] : config.filters) {
-    models.push_back(
-        {label, std::visit([&](const auto& chosen) { return make(chosen, sigma, dt); }, filter)});
-  }
-  return MultipleModelFilter(std::move(models), config.switching);
-}
-
 /// ln Σ c_j N(r_j; 0, S_j).
-double log_likelihood_of_mixture(const ImmFilter& mixed, const Eigen::Vector2d& z,
+double log_likelihood_of_mixture(const ImmFilter<2>& mixed, const Eigen::Vector2d& z,
                                  const Eigen::Matrix2d& covariance) {
   double density = 0.0;
-  for (const ImmFilter::Mode& mode : mixed.modes()) {
+  for (const ImmFilter<2>::Mode& mode : mixed.modes()) {
     const Eigen::Matrix2d s = mode.filter.innovation_covariance(covariance);
     const Eigen::Vector2d r = z - mode.filter.estimate().position;
     density += mode.weight * portable::exp(-0.5 * r.dot(s.inverse() * r)) /
@@ -93,12 +34,11 @@ Filter make_filter(const FilterConfig& config, double sigma, double dt) {
   require_measurable(sigma, dt);
   return std::visit(
       [&](const auto& chosen) {
-        const auto widened = [](auto&& made) { return Filter(std::forward<decltype(made)>(made)); };
-        const auto made = make(chosen, sigma, dt);
-        if constexpr (std::is_same_v<decltype(made), const SingleFilter>) {
-          return std::visit(widened, made);
+        if constexpr (requires { bank_of(chosen); }) {
+          return Filter(make_bank<2>(chosen, sigma, dt));
         } else {
-          return widened(made);
+          return std::visit([](auto&& made) { return Filter(std::move(made)); },
+                            make_single_filter<2>(chosen, sigma, dt));
         }
       },
       config);
@@ -138,7 +78,7 @@ bool update(Filter& filter, const Detection& detection) {
 
 std::optional<double> log_likelihood(const Filter& filter, const Eigen::Vector2d& z,
                                      const Eigen::Matrix2d& covariance) {
-  if (const auto* mixed = std::get_if<ImmFilter>(&filter)) {
+  if (const auto* mixed = std::get_if<ImmFilter<2>>(&filter)) {
     return log_likelihood_of_mixture(*mixed, z, covariance);
   }
   const Eigen::Matrix2d s = innovation_covariance(filter, covariance);
@@ -187,7 +127,7 @@ Eigen::Vector2d position_sigma(const Filter& filter) {
 }
 
 Eigen::Vector2d noise_sigma(const Filter& filter) {
-  if (const auto* several = std::get_if<MultipleModelFilter>(&filter)) {
+  if (const auto* several = std::get_if<MultipleModelFilter<2>>(&filter)) {
     return several->noise_sigma();
   }
   if (const auto* gains = designed_gain_filter(filter)) return gains->noise_sigma();
@@ -211,14 +151,14 @@ std::string_view name(const Filter& filter) {
 }
 
 std::string_view model_name(const Filter& filter) {
-  if (const auto* several = std::get_if<MultipleModelFilter>(&filter))
+  if (const auto* several = std::get_if<MultipleModelFilter<2>>(&filter))
     return several->leader().name;
-  if (const auto* mixed = std::get_if<ImmFilter>(&filter)) return mixed->leader().name;
+  if (const auto* mixed = std::get_if<ImmFilter<2>>(&filter)) return mixed->leader().name;
   return {};
 }
 
 const GainFilter<2>* designed_gain_filter(const Filter& filter) {
-  if (const auto* several = std::get_if<MultipleModelFilter>(&filter)) {
+  if (const auto* several = std::get_if<MultipleModelFilter<2>>(&filter)) {
     return std::get_if<GainFilter<2>>(&several->leader().filter);
   }
   return std::get_if<GainFilter<2>>(&filter);
@@ -242,6 +182,14 @@ std::optional<Result> if_it_settles(const Filter& filter, Of&& of) {
 std::string gains_text(const Filter& filter) {
   return if_it_settles<std::string>(filter, [](const auto& f) { return f.gains_text(); })
       .value_or("");
+}
+
+std::string title(const Filter& filter) {
+  if (std::holds_alternative<MultipleModelFilter<2>>(filter)) {
+    return std::string(MultipleModelConfig::kind);
+  }
+  const std::string gains = gains_text(filter);
+  return std::string(name(filter)) + (gains.empty() ? "" : " " + gains);
 }
 
 std::optional<Gains> steady_gains(const Filter& filter) {

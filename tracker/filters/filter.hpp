@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <concepts>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,8 +55,8 @@ template <class... Fs>
 inline constexpr bool all_are_planar_filters<std::variant<Fs...>> = (PlanarFilter<Fs> && ...);
 
 /// One object's filter.
-using Filter = std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>, MotionFilter,
-                            MultipleModelFilter, ImmFilter>;
+using Filter = std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>, MotionFilter<2>,
+                            MultipleModelFilter<2>, ImmFilter<2>>;
 static_assert(all_are_planar_filters<Filter>,
               "every alternative of Filter needs the operations of PlanarFilter");
 
@@ -67,10 +66,6 @@ static_assert(all_are_planar_filters<Filter>,
 /// @param dt     nominal time between updates [s], > 0
 /// @throws std::invalid_argument if σ or dt is not positive and finite, or the gains are unstable
 Filter make_filter(const FilterConfig& config, double sigma, double dt);
-
-/// The filters that run side by side or are mixed, by name.
-const std::map<std::string, SingleFilterConfig>& bank_of(const MultipleModelConfig& config);
-const std::map<std::string, SingleFilterConfig>& bank_of(const ImmConfig& config);
 
 // The operations of whichever filter it is; see GainFilter.
 
@@ -122,6 +117,8 @@ const GainFilter<2>* designed_gain_filter(const Filter& filter);
 /// Such as "g=0.1 h=0.005"; for a Kalman filter the gains that it settles at; empty if the filter
 /// does not settle.
 std::string gains_text(const Filter& filter);
+/// Both, such as "gh g=0.1 h=0.005"; of several models "multiple-model" or "imm", whichever leads.
+std::string title(const Filter& filter);
 /// Nothing if the filter does not settle.
 std::optional<Gains> steady_gains(const Filter& filter);
 

@@ -334,16 +334,11 @@ struct ImmConfig {
              .minimum = 0.0,
              .maximum = 0.5});
   }
-
-  template <class Report>
-  void check(Report&& report) const {
-    for (const auto& [name, filter] : filters) {
-      if (std::holds_alternative<Order0Config>(filter)) {
-        report("filters", "an order0 filter has no velocity to mix: make '" + name + "' a gh");
-      }
-    }
-  }
 };
+
+/// The filters that run side by side or are mixed, by name.
+const std::map<std::string, SingleFilterConfig>& bank_of(const MultipleModelConfig& config);
+const std::map<std::string, SingleFilterConfig>& bank_of(const ImmConfig& config);
 
 /// What a scene may ask for.
 using FilterConfig = std::variant<GhConfig, GhkConfig, Order0Config, KalmanCvConfig, KalmanCaConfig,

@@ -1,10 +1,12 @@
 #include "tracker/filters/filter_design.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tracker/filters/gains/analysis.hpp"
 
@@ -108,9 +110,9 @@ TargetMotion motion_of(const CoordinatedTurn& chosen, double) { return chosen; }
 TargetMotion motion_of(const Ballistic& chosen, double) { return chosen; }
 
 template <int Order>
-MotionFilter mode_of(const GainFilterConfig<Order>& config, double sigma, double dt) {
+MotionModel mode_of(const GainFilterConfig<Order>& config, double sigma, double dt) {
   const auto& [schedule, errors] = designed(config, sigma, dt);
-  PolynomialMotion motion{.order = std::max(Order, 1),
+  PolynomialMotion motion{.order = Order,
                           .process_model = errors.process_model,
                           .process_intensity = errors.process_intensity,
                           .renewal = dt,
@@ -119,41 +121,109 @@ MotionFilter mode_of(const GainFilterConfig<Order>& config, double sigma, double
     motion.process_intensity = 0.0;
     motion.implied = implied_noise(schedule.steady, sigma, dt);
   }
-  return MotionFilter(
-      {.motion = motion, .sigma = sigma, .interval = dt, .initial_speed = errors.initial_speed});
+  return {.motion = motion, .sigma = sigma, .interval = dt, .initial_speed = errors.initial_speed};
 }
 
 template <int Order>
-MotionFilter mode_of(const KalmanConfig<Order>& config, double sigma, double dt) {
+MotionModel mode_of(const KalmanConfig<Order>& config, double sigma, double dt) {
   const KalmanModel model = designed(config, sigma, dt);
-  return MotionFilter(
-      {.motion = PolynomialMotion{.order = Order,
-                                  .process_model = model.process_model,
-                                  .process_intensity = model.process_intensity,
-                                  .renewal = dt,
-                                  .initial_acceleration = model.initial_acceleration},
-       .sigma = sigma,
-       .interval = dt,
-       .initial_speed = model.initial_speed});
+  return {.motion = PolynomialMotion{.order = Order,
+                                     .process_model = model.process_model,
+                                     .process_intensity = model.process_intensity,
+                                     .renewal = dt,
+                                     .initial_acceleration = model.initial_acceleration},
+          .sigma = sigma,
+          .interval = dt,
+          .initial_speed = model.initial_speed};
 }
 
 template <Propagation Way>
-MotionFilter mode_of(const MotionFilterConfig<Way>& config, double sigma, double dt) {
+MotionModel mode_of(const MotionFilterConfig<Way>& config, double sigma, double dt) {
   const auto motion =
       std::visit([&](const auto& chosen) { return motion_of(chosen, config.initial_acceleration); },
                  config.motion);
-  return MotionFilter({.motion = motion,
-                       .propagation = Way,
-                       .sigma = sigma,
-                       .interval = dt,
-                       .initial_speed = config.initial_speed});
+  return {.motion = motion,
+          .propagation = Way,
+          .sigma = sigma,
+          .interval = dt,
+          .initial_speed = config.initial_speed};
 }
 
 }  // namespace
 
-MotionFilter equivalent_motion(const SingleFilterConfig& config, double sigma, double dt) {
+MotionModel equivalent_motion(const SingleFilterConfig& config, double sigma, double dt) {
   require_measurable(sigma, dt);
   return std::visit([&](const auto& chosen) { return mode_of(chosen, sigma, dt); }, config);
 }
+
+namespace {
+
+template <int D, int Order>
+SingleFilter<D> single(const GainFilterConfig<Order>& config, double sigma, double dt) {
+  const GainDesign design = designed(config, sigma, dt);
+  return GainFilter<D>(design.schedule, design.errors);
+}
+
+template <int D, int Order>
+SingleFilter<D> single(const KalmanConfig<Order>& config, double sigma, double dt) {
+  return KalmanFilter<Order, D>(designed(config, sigma, dt));
+}
+
+template <int D, Propagation Way>
+SingleFilter<D> single(const MotionFilterConfig<Way>& config, double sigma, double dt) {
+  return MotionFilter<D>(mode_of(config, sigma, dt));
+}
+
+/// From one that hardly manoeuvres to one that follows the measurements.
+std::map<std::string, SingleFilterConfig> bank_of_indices() {
+  std::map<std::string, SingleFilterConfig> bank;
+  const std::array<std::pair<const char*, double>, 3> indices = {
+      {{"steady", 0.01}, {"turning", 0.3}, {"nimble", 10.0}}};
+  for (const auto& [name, index] : indices) {
+    bank[name] = GhConfig{.design = gain_design::TrackingIndex<1>{.index = index}};
+  }
+  return bank;
+}
+
+}  // namespace
+
+const std::map<std::string, SingleFilterConfig>& bank_of(const MultipleModelConfig& config) {
+  return config.filters;
+}
+
+const std::map<std::string, SingleFilterConfig>& bank_of(const ImmConfig& config) {
+  static const std::map<std::string, SingleFilterConfig> by_default = bank_of_indices();
+  return config.filters.empty() ? by_default : config.filters;
+}
+
+template <int D>
+SingleFilter<D> make_single_filter(const SingleFilterConfig& config, double sigma, double dt) {
+  return std::visit([&](const auto& chosen) { return single<D>(chosen, sigma, dt); }, config);
+}
+
+template <int D>
+MultipleModelFilter<D> make_bank(const MultipleModelConfig& config, double sigma, double dt) {
+  std::vector<typename MultipleModelFilter<D>::Model> models;
+  for (const auto& [label, filter] : bank_of(config)) {
+    models.push_back({label, make_single_filter<D>(filter, sigma, dt)});
+  }
+  return MultipleModelFilter<D>(std::move(models), config.switching);
+}
+
+template <int D>
+ImmFilter<D> make_bank(const ImmConfig& config, double sigma, double dt) {
+  std::vector<typename ImmFilter<D>::Mode> modes;
+  for (const auto& [label, filter] : bank_of(config)) {
+    modes.push_back({label, MotionFilter<D>(equivalent_motion(filter, sigma, dt))});
+  }
+  return ImmFilter<D>(std::move(modes), config.switching);
+}
+
+template SingleFilter<1> make_single_filter<1>(const SingleFilterConfig&, double, double);
+template SingleFilter<2> make_single_filter<2>(const SingleFilterConfig&, double, double);
+template MultipleModelFilter<1> make_bank<1>(const MultipleModelConfig&, double, double);
+template MultipleModelFilter<2> make_bank<2>(const MultipleModelConfig&, double, double);
+template ImmFilter<1> make_bank<1>(const ImmConfig&, double, double);
+template ImmFilter<2> make_bank<2>(const ImmConfig&, double, double);
 
 }  // namespace ghtrack

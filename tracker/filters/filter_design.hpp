@@ -3,8 +3,10 @@
 #include "tracker/filters/filter_config.hpp"
 #include "tracker/filters/gain_filter.hpp"
 #include "tracker/filters/gain_schedule.hpp"
+#include "tracker/filters/imm_filter.hpp"
 #include "tracker/filters/kalman_filter.hpp"
 #include "tracker/filters/motion_filter.hpp"
+#include "tracker/filters/multiple_model.hpp"
 
 // From what a scene says of a filter to the numbers that it works with, for a measurement error σ
 // [m] and a nominal time dt [s] between updates. The same on any number of axes.
@@ -27,9 +29,19 @@ GainDesign designed(const GainFilterConfig<Order, S>& config, double sigma, doub
 template <int Order>
 KalmanModel designed(const KalmanConfig<Order>& config, double sigma, double dt);
 
-/// The filter of a motion and process noise that a configuration stands for: of designed gains
-/// those that they imply. It is what interacting models mix, and what a smoother carries back.
+/// The motion and process noise that a configuration stands for: of designed gains those that they
+/// imply. A filter of it is what interacting models mix, and what a smoother carries back.
 /// @throws std::invalid_argument if the gains are unstable
-MotionFilter equivalent_motion(const SingleFilterConfig& config, double sigma, double dt);
+MotionModel equivalent_motion(const SingleFilterConfig& config, double sigma, double dt);
+
+/// A filter on D axes that waits for its first measurement.
+/// @throws std::invalid_argument if the gains are unstable, or the motion needs more dimensions
+template <int D>
+SingleFilter<D> make_single_filter(const SingleFilterConfig& config, double sigma, double dt);
+/// Several of them, side by side and mixed.
+template <int D>
+MultipleModelFilter<D> make_bank(const MultipleModelConfig& config, double sigma, double dt);
+template <int D>
+ImmFilter<D> make_bank(const ImmConfig& config, double sigma, double dt);
 
 }  // namespace ghtrack

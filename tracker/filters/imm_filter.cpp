@@ -18,7 +18,8 @@ struct Lifted {
   MotionCovariance p;
 };
 
-Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
+template <int D>
+Lifted lifted(const MotionFilter<D>& from, const MotionFilter<D>& to) {
   const bool is_alike =
       from.motion().index() == to.motion().index() && from.state().size() == to.state().size();
   if (is_alike) return {from.state(), from.covariance()};
@@ -27,7 +28,7 @@ Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
   std::vector<int> source(static_cast<std::size_t>(n), -1);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < from.state().size(); ++j) {
-      if (component_of(to.motion(), i) == component_of(from.motion(), j)) {
+      if (component_of(to.motion(), i, D) == component_of(from.motion(), j, D)) {
         source[static_cast<std::size_t>(i)] = j;
       }
     }
@@ -49,15 +50,17 @@ Lifted lifted(const MotionFilter& from, const MotionFilter& to) {
 
 }  // namespace
 
-ImmFilter::ImmFilter(std::vector<Mode> modes, double switching)
+template <int D>
+ImmFilter<D>::ImmFilter(std::vector<Mode> modes, double switching)
     : modes_(std::move(modes)),
       chain_(modes_.size(), switching,
              modes_.empty() ? 1.0 : modes_.front().filter.nominal_interval(),
-             modes_.empty() ? 1.0 : modes_.front().filter.sigma()) {
+             modes_.empty() ? 1.0 : modes_.front().filter.sigma(), D) {
   for (Mode& mode : modes_) mode.weight = 1.0 / static_cast<double>(modes_.size());
 }
 
-bool ImmFilter::start(const Vector& z, const Matrix& covariance) {
+template <int D>
+bool ImmFilter<D>::start(const Vector& z, const Matrix& covariance) {
   for (Mode& mode : modes_) {
     if (!mode.filter.start(z, covariance)) {
       ++refusals_.measurements;
@@ -76,8 +79,18 @@ bool ImmFilter::start(const Vector& z, const Matrix& covariance) {
   return true;
 }
 
+template <int D>
+void ImmFilter<D>::start_from(const Kinematics<D>& guess) {
+  if (!start(guess.position)) return;
+  for (Mode& mode : modes_) mode.filter.start_from(guess);
+  combine();
+  prior_ = estimate_;
+  updates_ = 0;
+}
+
 /// The largest variance that a mode takes the position to have.
-double ImmFilter::widest_variance() const {
+template <int D>
+double ImmFilter<D>::widest_variance() const {
   double widest = 0.0;
   for (const Mode& mode : modes_) {
     widest = std::max(widest, mode.filter.innovation_covariance(Matrix::Zero()).trace());
@@ -86,7 +99,8 @@ double ImmFilter::widest_variance() const {
 }
 
 /// Mixes the modes by the transitions of the chain that are due, and gives them the weights c_j.
-void ImmFilter::mix() {
+template <int D>
+void ImmFilter<D>::mix() {
   const double leaving = chain_.leaving();
   if (leaving == 0.0) return;
   const double stay = 1.0 - leaving;
@@ -98,7 +112,7 @@ void ImmFilter::mix() {
   std::vector<std::pair<double, Lifted>> parts;
   parts.reserve(modes_.size());
   for (std::size_t j = 0; j < modes_.size(); ++j) {
-    const MotionFilter& own = modes_[j].filter;
+    const MotionFilter<D>& own = modes_[j].filter;
     Lifted mixture{MotionState::Zero(own.state().size()),
                    MotionCovariance::Zero(own.state().size(), own.state().size())};
     parts.clear();
@@ -120,7 +134,8 @@ void ImmFilter::mix() {
   }
 }
 
-bool ImmFilter::predict(double dt) {
+template <int D>
+bool ImmFilter<D>::predict(double dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) {
     ++refusals_.times;
     return false;
@@ -148,26 +163,39 @@ bool ImmFilter::predict(double dt) {
   return true;
 }
 
-bool ImmFilter::update(const Vector& z, const Matrix& covariance) {
+template <int D>
+bool ImmFilter<D>::update(const Vector& z, const Matrix& covariance) {
   if (!is_started()) return start(z, covariance);
   const Vector expected = estimate_.position;
-  if (!update(Measurement{z, covariance, PositionModel{}})) return false;
+  if (!update_modes([&](auto& filter) { return filter.update(z, covariance); },
+                    covariance.trace())) {
+    return false;
+  }
   residual_ = z - expected;
   return true;
 }
 
-bool ImmFilter::update(const Vector& z) {
-  return update(z, sigma() * sigma() * Matrix::Identity());
+template <int D>
+bool ImmFilter<D>::update(const Measurement& measured) requires(D == 2) {
+  if (std::holds_alternative<PositionModel>(measured.model)) {
+    return update(Vector(measured.z), Matrix(measured.r));
+  }
+  if constexpr (D == 2) {  // Clang 14 compiles this for one axis, too
+    return update_modes([&](auto& filter) { return filter.update(measured); },
+                        std::numeric_limits<double>::infinity());
+  }
+  return false;
 }
 
-bool ImmFilter::update(const Measurement& measured) {
+/// @param error  variance of the measurement, see ModeChain::update
+template <int D>
+template <class UpdateMode>
+bool ImmFilter<D>::update_modes(const UpdateMode& update_mode, double error) {
   ImmFilter next = *this;
   const bool all = std::all_of(next.modes_.begin(), next.modes_.end(),
-                               [&](Mode& mode) { return mode.filter.update(measured); });
+                               [&](Mode& mode) { return update_mode(mode.filter); });
   if (all) next.weigh();
-  const bool is_position = std::holds_alternative<PositionModel>(measured.model);
-  next.chain_.update(next.widest_variance(),
-                     is_position ? measured.r.trace() : std::numeric_limits<double>::infinity());
+  next.chain_.update(next.widest_variance(), error);
   next.measured_.clear();
   next.combine();
   if (!all || !next.is_finite()) {
@@ -183,7 +211,8 @@ bool ImmFilter::update(const Measurement& measured) {
 }
 
 /// Gives the modes weights by how well each has foreseen the measurement.
-void ImmFilter::weigh() {
+template <int D>
+void ImmFilter<D>::weigh() {
   const auto log_of = [](const Mode& mode) { return mode.filter.log_likelihood(); };
   const double best =
       log_of(*std::max_element(modes_.begin(), modes_.end(), [&](const Mode& a, const Mode& b) {
@@ -200,18 +229,20 @@ void ImmFilter::weigh() {
   log_likelihood_ += portable::log(sum);
 }
 
-void ImmFilter::coast() {
+template <int D>
+void ImmFilter<D>::coast() {
   residual_.reset();
   ++misses_;
 }
 
 /// The mean and the covariance of the mixture of all modes, and the leader, which stays while no
 /// other mode is likelier.
-void ImmFilter::combine() {
+template <int D>
+void ImmFilter<D>::combine() {
   estimate_ = {};
   for (std::size_t i = 0; i < modes_.size(); ++i) {
     const double weight = modes_[i].weight;
-    const Kinematics<2>& of_mode = modes_[i].filter.estimate();
+    const Kinematics<D>& of_mode = modes_[i].filter.estimate();
     estimate_.position += weight * of_mode.position;
     estimate_.velocity += weight * of_mode.velocity;
     estimate_.acceleration += weight * of_mode.acceleration;
@@ -224,5 +255,8 @@ void ImmFilter::combine() {
                    (mode.filter.innovation_covariance(Matrix::Zero()) + Matrix(d * d.transpose()));
   }
 }
+
+template class ImmFilter<1>;
+template class ImmFilter<2>;
 
 }  // namespace ghtrack

@@ -19,19 +19,21 @@ namespace ghtrack {
 ///   weighs    μ_j ∝ c_j Λ_j
 /// and combines the modes to one mean and covariance; when modes are mixed, see ModeChain. A
 /// prediction starts at the last measurement, however many predictions have been made since: time
-/// is the same however it is cut. Modes may have different states: what mode i does not know of
-/// mode j's state, mode j keeps of its own (unbiased mixing, Yuan, Han, Duan & Lei 2012).
+/// is the same however it is cut. Modes may have different states, down to the position alone: what
+/// mode i does not know of mode j's state, mode j keeps of its own (unbiased mixing, Yuan, Han,
+/// Duan & Lei 2012). It settles at no gains: they follow the weights.
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
 /// leave the filter as it was.
+template <int D>
 class ImmFilter {
  public:
-  using Vector = Eigen::Vector2d;
-  using Matrix = Eigen::Matrix2d;
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Matrix = Eigen::Matrix<double, D, D>;
 
   struct Mode {
     std::string name;
-    MotionFilter filter;
+    MotionFilter<D> filter;
     double weight = 1.0;  // μ, probability that the target moves like this
   };
 
@@ -47,16 +49,16 @@ class ImmFilter {
   const Mode& leader() const { return modes_[leader_]; }
 
   std::string_view name() const { return "imm"; }
-  std::string gains_text() const { return leader().filter.gains_text(); }
-  const Gains& steady_gains() const { return leader().filter.steady_gains(); }
-  double nominal_interval() const { return leader().filter.nominal_interval(); }
   double sigma() const { return leader().filter.sigma(); }
 
   bool start(const Vector& z, const Matrix& covariance);
+  bool start(const Vector& z) { return start(z, nominal_covariance()); }
+  /// Starts at a guess as uncertain as a target at first sight.
+  void start_from(const Kinematics<D>& guess);
   bool predict(double dt);
   bool update(const Vector& z, const Matrix& covariance);
-  bool update(const Vector& z);
-  bool update(const Measurement& measured);
+  bool update(const Vector& z) { return update(z, nominal_covariance()); }
+  bool update(const Measurement& measured) requires(D == 2);
   void coast();
 
   bool is_started() const { return leader().filter.is_started(); }
@@ -64,20 +66,21 @@ class ImmFilter {
   int consecutive_misses() const { return misses_; }
   const Refusals& refusals() const { return refusals_; }
 
-  const Kinematics<2>& prior() const { return prior_; }
-  const Kinematics<2>& estimate() const { return estimate_; }
+  const Kinematics<D>& prior() const { return prior_; }
+  const Kinematics<D>& estimate() const { return estimate_; }
   const std::optional<Vector>& residual() const { return residual_; }
   Vector position_sigma() const { return covariance_.diagonal().cwiseMax(0.0).cwiseSqrt(); }
   Matrix innovation_covariance(const Matrix& measurement) const {
     return measurement + covariance_;
   }
-  Matrix innovation_covariance() const {
-    return innovation_covariance(sigma() * sigma() * Matrix::Identity());
-  }
+  Matrix innovation_covariance() const { return innovation_covariance(nominal_covariance()); }
   /// ln Σ c_j Λ_j of the last update.
   double log_likelihood() const { return log_likelihood_; }
 
  private:
+  Matrix nominal_covariance() const { return sigma() * sigma() * Matrix::Identity(); }
+  template <class UpdateMode>
+  bool update_modes(const UpdateMode& update_mode, double error);
   void mix();
   void weigh();
   double widest_variance() const;
@@ -88,8 +91,8 @@ class ImmFilter {
   std::vector<Mode> measured_;  // the modes after the last measurement, if predicted since
   ModeChain chain_;
   std::size_t leader_ = 0;
-  Kinematics<2> prior_;
-  Kinematics<2> estimate_;
+  Kinematics<D> prior_;
+  Kinematics<D> estimate_;
   Matrix covariance_ = Matrix::Zero();  // of the position
   std::optional<Vector> residual_;
   double log_likelihood_ = 0.0;
@@ -97,5 +100,8 @@ class ImmFilter {
   int misses_ = 0;
   Refusals refusals_;
 };
+
+extern template class ImmFilter<1>;
+extern template class ImmFilter<2>;
 
 }  // namespace ghtrack

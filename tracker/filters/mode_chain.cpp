@@ -13,11 +13,11 @@ constexpr double kPatience = 3.0;  // nominal intervals
 
 }  // namespace
 
-ModeChain::ModeChain(std::size_t modes, double switching, double interval, double sigma)
+ModeChain::ModeChain(std::size_t modes, double switching, double interval, double sigma, int axes)
     : modes_(static_cast<double>(modes)),
       switching_(switching),
       interval_(interval),
-      nominal_((2.0 + kSame) * sigma * sigma),
+      nominal_((axes + kSame) * sigma * sigma),
       variance_(nominal_),
       has_left_(switching) {
   if (modes == 0) throw std::invalid_argument("several models need at least one filter");

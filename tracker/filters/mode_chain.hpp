@@ -18,8 +18,9 @@ class ModeChain {
   /// @param switching  probability that the target changes its mode in one nominal interval
   /// @param interval   the nominal one [s], > 0
   /// @param sigma      1-sigma error of a nominal measurement, per axis [m]
+  /// @param axes       that a position has
   /// @throws std::invalid_argument without a mode, or unless 0 ≤ switching ≤ 1/2
-  ModeChain(std::size_t modes, double switching, double interval, double sigma);
+  ModeChain(std::size_t modes, double switching, double interval, double sigma, int axes);
 
   /// At first sight.
   /// @param variance  the largest that a mode takes the position to have, summed over the axes [m²]

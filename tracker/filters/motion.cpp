@@ -10,18 +10,20 @@ namespace {
 
 constexpr double kStraight = 1e-9;  // [rad]; a turn of less is none
 
-/// Writes the covariance of one axis onto both.
-MotionCovariance on_both_axes(const AxisCovariance<double>& q, int order, int states) {
+/// Writes the covariance of one axis onto all.
+MotionCovariance on_axes(int axes, const AxisCovariance<double>& q, int order, int states) {
   MotionCovariance all = MotionCovariance::Zero(states, states);
   const auto set = [&](int i, int j, double value) {
-    for (int axis = 0; axis < 2; ++axis) {
-      all(2 * i + axis, 2 * j + axis) = value;
-      all(2 * j + axis, 2 * i + axis) = value;
+    for (int axis = 0; axis < axes; ++axis) {
+      all(axes * i + axis, axes * j + axis) = value;
+      all(axes * j + axis, axes * i + axis) = value;
     }
   };
   set(0, 0, q.xx);
-  set(0, 1, q.xv);
-  set(1, 1, q.vv);
+  if (order >= 1) {
+    set(0, 1, q.xv);
+    set(1, 1, q.vv);
+  }
   if (order >= 2) {
     set(0, 2, q.xa);
     set(1, 2, q.va);
@@ -33,7 +35,7 @@ MotionCovariance on_both_axes(const AxisCovariance<double>& q, int order, int st
 /// White noise in the acceleration, and in one component more.
 MotionCovariance with_one_more(double acceleration_density, double density, double dt) {
   MotionCovariance q =
-      on_both_axes(process_noise(ProcessModel::kWhiteNoise, 1, acceleration_density, dt), 1, 5);
+      on_axes(2, process_noise(ProcessModel::kWhiteNoise, 1, acceleration_density, dt), 1, 5);
   q(4, 4) = density * dt;
   return q;
 }
@@ -41,21 +43,23 @@ MotionCovariance with_one_more(double acceleration_density, double density, doub
 }  // namespace
 
 MotionState PolynomialMotion::moved(const MotionState& x, double dt) const {
+  const Eigen::Index axes = x.size() / (order + 1);
   MotionState next = x;
-  next.head<2>() += dt * x.segment<2>(2);
+  if (order >= 1) next.head(axes) += dt * x.segment(axes, axes);
   if (order >= 2) {
-    next.head<2>() += 0.5 * dt * dt * x.segment<2>(4);
-    next.segment<2>(2) += dt * x.segment<2>(4);
+    next.head(axes) += 0.5 * dt * dt * x.tail(axes);
+    next.segment(axes, axes) += dt * x.tail(axes);
   }
   return next;
 }
 
-MotionCovariance PolynomialMotion::noise(const MotionState&, double dt) const {
+MotionCovariance PolynomialMotion::noise(const MotionState& x, double dt) const {
   AxisCovariance<double> q = implied.over(dt);
   if (process_intensity > 0.0) {
     q += process_noise(process_model, order, process_intensity, dt, renewal);
   }
-  return on_both_axes(q, order, 2 * (order + 1));
+  const auto states = static_cast<int>(x.size());
+  return on_axes(states / (order + 1), q, order, states);
 }
 
 MotionState CoordinatedTurn::moved(const MotionState& x, double dt) const {
@@ -104,15 +108,18 @@ MotionCovariance Ballistic::noise(const MotionState&, double dt) const {
   return with_one_more(spectral_density, drag_density, dt);
 }
 
-int states_of(const TargetMotion& motion) {
-  const auto* polynomial = std::get_if<PolynomialMotion>(&motion);
-  return polynomial != nullptr ? 2 * (polynomial->order + 1) : 5;
+bool needs_plane(const TargetMotion& motion) {
+  return !std::holds_alternative<PolynomialMotion>(motion);
 }
 
-StateComponent component_of(const TargetMotion& motion, int i) {
-  if (i < 4 || std::holds_alternative<PolynomialMotion>(motion)) {
-    return static_cast<StateComponent>(i);
-  }
+int states_of(const TargetMotion& motion, int axes) {
+  const auto* polynomial = std::get_if<PolynomialMotion>(&motion);
+  return polynomial != nullptr ? axes * (polynomial->order + 1) : 5;
+}
+
+StateComponent component_of(const TargetMotion& motion, int i, int axes) {
+  if (axes == 1) return static_cast<StateComponent>(2 * i);
+  if (i < 4 || !needs_plane(motion)) return static_cast<StateComponent>(i);
   return std::holds_alternative<CoordinatedTurn>(motion) ? StateComponent::kTurnRate
                                                          : StateComponent::kDrag;
 }

@@ -10,7 +10,8 @@
 
 namespace ghtrack {
 
-/// State of one object in the plane: x, y, v_x, v_y, then what else the motion has, SI units.
+/// State of one object on one axis or in the plane: x, y, v_x, v_y, then what else the motion has,
+/// SI units.
 using MotionState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using MotionCovariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
@@ -24,9 +25,10 @@ enum class StateComponent { kX, kY, kVx, kVy, kAx, kAy, kTurnRate, kDrag };
 //   noise(x, dt)    covariance of what noise adds meanwhile
 //   first_guess, first_sigma   of the components after the velocity, at first sight
 
-/// Constant velocity or acceleration: the motion of the linear filters, and their noise.
+/// Rest, constant velocity or acceleration: the motion of the linear filters, and their noise. On
+/// one axis or two, which the state tells.
 struct PolynomialMotion {
-  int order = 1;  // 1 or 2
+  int order = 1;  // 0, 1 or 2
   ProcessModel process_model = ProcessModel::kWhiteNoise;
   double process_intensity = 1.0;  // see process_noise()
   double renewal = 1.0;            // see process_noise() [s]
@@ -100,9 +102,12 @@ struct Ballistic {
 /// How a target moves. Add yours here.
 using TargetMotion = std::variant<PolynomialMotion, CoordinatedTurn, Ballistic>;
 
-/// Number of components, and what they are.
-int states_of(const TargetMotion& motion);
-StateComponent component_of(const TargetMotion& motion, int i);
+/// Does the motion need a plane?
+bool needs_plane(const TargetMotion& motion);
+
+/// Number of components of a state on this many axes, and what they are.
+int states_of(const TargetMotion& motion, int axes);
+StateComponent component_of(const TargetMotion& motion, int i, int axes);
 
 /// Mean and 1-sigma error of the components after the velocity at first sight.
 struct FirstGuess {

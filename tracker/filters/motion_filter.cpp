@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <type_traits>
 
 #include "sim/portable_math.hpp"
 #include "tracker/filters/axis_covariance.hpp"
@@ -54,17 +56,13 @@ Points points_of(const MotionState& x, const MotionCovariance& p) {
   return points;
 }
 
-bool is_linear(const TargetMotion& motion) {
-  return std::holds_alternative<PolynomialMotion>(motion);
-}
-
 /// ∂ moved / ∂ state by central differences, in steps that are small against the errors.
 MotionCovariance derivative(const TargetMotion& motion, const MotionState& x,
                             const MotionCovariance& p, double dt) {
   const Eigen::Index n = x.size();
   MotionCovariance f(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (is_linear(motion)) {
+    if (!needs_plane(motion)) {
       f.col(i) = moved(motion, MotionState::Unit(n, i), dt);
       continue;
     }
@@ -82,7 +80,7 @@ MotionCovariance derivative(const TargetMotion& motion, const MotionState& x,
 Carried carried(const TargetMotion& motion, Propagation propagation, const MotionState& x,
                 const MotionCovariance& p, double dt) {
   Carried next;
-  if (is_linear(motion) || propagation == Propagation::kExtended) {
+  if (!needs_plane(motion) || propagation == Propagation::kExtended) {
     const MotionCovariance f = derivative(motion, x, p, dt);
     next.x = moved(motion, x, dt);
     next.cross = p.lazyProduct(f.transpose());
@@ -105,44 +103,61 @@ Carried carried(const TargetMotion& motion, Propagation propagation, const Motio
   return next;
 }
 
-MotionFilter::MotionFilter(const MotionModel& model)
-    : model_(model), steady_(steady_gains_of(model)) {}
+template <int D>
+MotionFilter<D>::MotionFilter(const MotionModel& model)
+    : model_(model), steady_(steady_gains_of(model)) {
+  if (D == 1 && needs_plane(model.motion)) {
+    const bool turns = std::holds_alternative<CoordinatedTurn>(model.motion);
+    throw std::invalid_argument(std::string(turns ? "a coordinated turn" : "a ballistic flight") +
+                                " needs two dimensions, and this is a series of single values");
+  }
+}
 
-std::string_view MotionFilter::name() const {
+template <int D>
+std::string_view MotionFilter<D>::name() const {
   return model_.propagation == Propagation::kExtended ? "ekf" : "ukf";
 }
 
-std::string MotionFilter::gains_text() const { return to_text(steady_); }
+template <int D>
+std::string MotionFilter<D>::gains_text() const {
+  return to_text(steady_);
+}
 
-Kinematics<2> MotionFilter::kinematics() const {
-  Kinematics<2> k{x_.head<2>(), x_.segment<2>(2), Vector::Zero()};
-  if (x_.size() == 6) k.acceleration = x_.segment<2>(4);
-  if (const auto* turn = std::get_if<CoordinatedTurn>(&model_.motion); turn != nullptr) {
-    k.acceleration = x_[4] * Vector(-x_[3], x_[2]);
-  } else if (const auto* flight = std::get_if<Ballistic>(&model_.motion); flight != nullptr) {
-    k.acceleration = -x_[4] * k.velocity.norm() * k.velocity - Vector(0.0, flight->gravity);
+template <int D>
+Kinematics<D> MotionFilter<D>::kinematics() const {
+  Kinematics<D> k{.position = x_.template head<D>()};
+  if (has_velocity()) k.velocity = x_.template segment<D>(D);
+  if (has_acceleration()) k.acceleration = x_.template segment<D>(2 * D);
+  if constexpr (D == 2) {
+    if (const auto* turn = std::get_if<CoordinatedTurn>(&model_.motion); turn != nullptr) {
+      k.acceleration = x_[4] * Vector(-x_[3], x_[2]);
+    } else if (const auto* flight = std::get_if<Ballistic>(&model_.motion); flight != nullptr) {
+      k.acceleration = -x_[4] * k.velocity.norm() * k.velocity - Vector(0.0, flight->gravity);
+    }
   }
   return k;
 }
 
-bool MotionFilter::start(const Vector& z, const Matrix& covariance) {
+template <int D>
+bool MotionFilter<D>::start(const Vector& z, const Matrix& covariance) {
   if (!z.allFinite() || !covariance.allFinite() || (covariance.diagonal().array() < 0.0).any()) {
-    ++refusals_.measurements;
-    return false;
+    return refuse_measurement();
   }
-  const int n = states_of(model_.motion);
+  const int n = states_of(model_.motion, D);
   x_.setZero(n);
   p_.setZero(n, n);
-  x_.head<2>() = z;
-  p_.topLeftCorner<2, 2>() = covariance;
-  p_.diagonal().segment<2>(2).setConstant(model_.initial_speed * model_.initial_speed);
-  for (int i = 4; i < n; ++i) {
+  x_.template head<D>() = z;
+  p_.template topLeftCorner<D, D>() = covariance;
+  if (has_velocity()) {
+    p_.diagonal().template segment<D>(D).setConstant(model_.initial_speed * model_.initial_speed);
+  }
+  for (int i = 2 * D; i < n; ++i) {
     const FirstGuess guess = first_guess_of(model_.motion, i);
     x_[i] = guess.mean;
     p_(i, i) = guess.sigma * guess.sigma;
   }
   // No acceleration is made up at first sight.
-  prior_ = estimate_ = Kinematics<2>{.position = z};
+  prior_ = estimate_ = Kinematics<D>{.position = z};
   residual_.reset();
   updates_ = 1;
   misses_ = 0;
@@ -150,7 +165,18 @@ bool MotionFilter::start(const Vector& z, const Matrix& covariance) {
   return true;
 }
 
-bool MotionFilter::predict(double dt) {
+template <int D>
+void MotionFilter<D>::start_from(const Kinematics<D>& guess) {
+  if (!start(guess.position)) return;
+  MotionState x = x_;
+  if (has_velocity()) x.template segment<D>(D) = guess.velocity;
+  if (has_acceleration()) x.template segment<D>(2 * D) = guess.acceleration;
+  set_state(x, p_);
+  updates_ = 0;
+}
+
+template <int D>
+bool MotionFilter<D>::predict(double dt) {
   if (!(dt > 0.0) || !std::isfinite(dt)) {
     ++refusals_.times;
     return false;
@@ -168,33 +194,46 @@ bool MotionFilter::predict(double dt) {
   return true;
 }
 
-bool MotionFilter::update(const Vector& z, const Matrix& covariance) {
+template <int D>
+bool MotionFilter<D>::update(const Vector& z, const Matrix& covariance) {
   if (!started_) return start(z, covariance);
-  return update(Measurement{z, covariance, PositionModel{}});
+  if (!z.allFinite() || !covariance.allFinite()) return refuse_measurement();
+  const Vector r = z - x_.template head<D>();
+  const Matrix s = p_.template topLeftCorner<D, D>() + covariance;
+  return correct(r, s, p_.template leftCols<D>(), r) || refuse_measurement();
 }
 
-bool MotionFilter::update(const Measurement& m) {
-  const auto refuse = [this] {
-    ++refusals_.measurements;
-    return false;
+template <int D>
+bool MotionFilter<D>::update(const Measurement& m) requires(D == 2) {
+  if (!started_ || !m.z.allFinite() || !m.r.allFinite()) return refuse_measurement();
+  if (std::holds_alternative<PositionModel>(m.model)) return update(Vector(m.z), Matrix(m.r));
+  const auto position_of = [](const auto& state) {
+    return Eigen::Vector2d(state.template head<2>());
   };
-  if (!started_ || !m.z.allFinite() || !m.r.allFinite()) return refuse();
-  const PredictedMeasurement at_mean = predicted(m.model, x_.head<2>(), x_.segment<2>(2));
-  if (!at_mean.z.allFinite()) return refuse();
-  const bool is_position = std::holds_alternative<PositionModel>(m.model);
-  if (model_.propagation == Propagation::kExtended || is_position) {
-    const Cross cross = p_.leftCols<4>().lazyProduct(at_mean.jacobian.transpose());
-    const MeasuredCovariance s = at_mean.jacobian.lazyProduct(cross.topRows<4>()) + m.r;
-    const MeasuredVector r = ghtrack::residual(m.model, m.z, at_mean.z);
-    const auto in_position = is_position ? std::optional<Vector>(r.head<2>()) : std::nullopt;
-    return correct(r, s, cross, in_position) || refuse();
+  const auto velocity_of = [](const auto& state) {
+    return state.size() >= 4 ? Eigen::Vector2d(state.template segment<2>(2))
+                             : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  };
+  const PredictedMeasurement at_mean = predicted(m.model, position_of(x_), velocity_of(x_));
+  if (!at_mean.z.allFinite()) return refuse_measurement();
+  if (model_.propagation == Propagation::kExtended) {
+    const auto linear = [&]<int N>(std::integral_constant<int, N>) {  // N components are measured
+      const auto jacobian = at_mean.jacobian.template leftCols<N>();
+      const Cross cross = p_.template leftCols<N>().lazyProduct(jacobian.transpose());
+      const MeasuredCovariance s = jacobian.lazyProduct(cross.template topRows<N>()) + m.r;
+      const MeasuredVector r = ghtrack::residual(m.model, m.z, at_mean.z);
+      return correct(r, s, cross, std::nullopt);
+    };
+    const bool used = has_velocity() ? linear(std::integral_constant<int, 4>{})
+                                     : linear(std::integral_constant<int, 2>{});
+    return used || refuse_measurement();
   }
   Points points = points_of(x_, p_);
   const double weight = 1.0 / static_cast<double>(points.cols());
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 12> seen(m.z.size(), points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const PredictedMeasurement at_point =
-        predicted(m.model, points.col(i).head<2>(), points.col(i).segment<2>(2));
+        predicted(m.model, position_of(points.col(i)), velocity_of(points.col(i)));
     seen.col(i) = ghtrack::residual(m.model, at_point.z, at_mean.z);
   }
   const MeasuredVector shift = seen.rowwise().mean();
@@ -203,12 +242,20 @@ bool MotionFilter::update(const Measurement& m) {
   const MeasuredCovariance s = weight * seen.lazyProduct(seen.transpose()) + m.r;
   const Cross cross = weight * points.lazyProduct(seen.transpose());
   const MeasuredVector r = ghtrack::residual(m.model, m.z, at_mean.z) - shift;
-  return correct(r, s, cross, std::nullopt) || refuse();
+  return correct(r, s, cross, std::nullopt) || refuse_measurement();
+}
+
+template <int D>
+bool MotionFilter<D>::refuse_measurement() {
+  ++refusals_.measurements;
+  return false;
 }
 
 /// K = C S⁻¹, x = x' + K r, P = P' − K S Kᵀ for the covariance C of state and measurement.
-bool MotionFilter::correct(const MeasuredVector& residual, const MeasuredCovariance& s,
-                           const Cross& cross, const std::optional<Vector>& residual_in_position) {
+template <int D>
+bool MotionFilter<D>::correct(const MeasuredVector& residual, const MeasuredCovariance& s,
+                              const Cross& cross,
+                              const std::optional<Vector>& residual_in_position) {
   // With S = L Lᵀ and W = C L⁻ᵀ: x = x' + W L⁻¹ r, P = P' − W Wᵀ.
   const MeasuredCovariance root = lower_root(s);
   if (!(root.diagonal().array() > 0.0).all()) return false;
@@ -235,39 +282,43 @@ bool MotionFilter::correct(const MeasuredVector& residual, const MeasuredCovaria
   return true;
 }
 
-void MotionFilter::coast() {
+template <int D>
+void MotionFilter<D>::coast() {
   residual_.reset();
   ++misses_;
 }
 
-void MotionFilter::set_state(const MotionState& state, const MotionCovariance& covariance) {
+template <int D>
+void MotionFilter<D>::set_state(const MotionState& state, const MotionCovariance& covariance) {
   x_ = state;
   p_ = covariance;
   prior_ = estimate_ = kinematics();
 }
 
-void MotionFilter::adopt(const Knowledge<2>& known) {
-  const bool has_acceleration = x_.size() == 6 && known.order >= 2;
-  const int shared = has_acceleration ? 6 : known.order >= 1 ? 4 : 2;
+template <int D>
+void MotionFilter<D>::adopt(const Knowledge<D>& known) {
+  const bool knows_velocity = has_velocity() && known.order >= 1;
+  const bool knows_acceleration = has_acceleration() && known.order >= 2;
+  const int shared = knows_acceleration ? 3 * D : knows_velocity ? 2 * D : D;
   MotionState x = x_;
-  x.head<2>() = known.state.position;
-  if (known.order >= 1) x.segment<2>(2) = known.state.velocity;
-  if (has_acceleration) x.segment<2>(4) = known.state.acceleration;
+  x.template head<D>() = known.state.position;
+  if (knows_velocity) x.template segment<D>(D) = known.state.velocity;
+  if (knows_acceleration) x.template segment<D>(2 * D) = known.state.acceleration;
   MotionCovariance p = p_;
   p.topRows(shared).setZero();
   p.leftCols(shared).setZero();
-  const AxisCovariance<Eigen::Array2d>& c = known.covariance;
-  const auto set = [&](int i, int j, const Eigen::Array2d& value) {
-    for (int axis = 0; axis < 2; ++axis) {
-      p(2 * i + axis, 2 * j + axis) = p(2 * j + axis, 2 * i + axis) = value[axis];
+  const AxisCovariance<Eigen::Array<double, D, 1>>& c = known.covariance;
+  const auto set = [&](int i, int j, const Eigen::Array<double, D, 1>& value) {
+    for (int axis = 0; axis < D; ++axis) {
+      p(D * i + axis, D * j + axis) = p(D * j + axis, D * i + axis) = value[axis];
     }
   };
   set(0, 0, c.xx);
-  if (known.order >= 1) {
+  if (knows_velocity) {
     set(0, 1, c.xv);
     set(1, 1, c.vv);
   }
-  if (has_acceleration) {
+  if (knows_acceleration) {
     set(0, 2, c.xa);
     set(1, 2, c.va);
     set(2, 2, c.aa);
@@ -275,17 +326,27 @@ void MotionFilter::adopt(const Knowledge<2>& known) {
   set_state(x, p);
 }
 
-Knowledge<2> MotionFilter::knowledge() const {
+template <int D>
+Knowledge<D> MotionFilter<D>::knowledge() const {
   const auto get = [&](int i, int j) {
-    return Eigen::Array2d(p_(2 * i, 2 * j), p_(2 * i + 1, 2 * j + 1));
+    Eigen::Array<double, D, 1> values;
+    for (int axis = 0; axis < D; ++axis) values[axis] = p_(D * i + axis, D * j + axis);
+    return values;
   };
-  Knowledge<2> known{1, kinematics(), {get(0, 0), get(0, 1), {}, get(1, 1), {}, {}}};
-  if (x_.size() != 6) return known;
+  Knowledge<D> known{0, kinematics(), {get(0, 0), {}, {}, {}, {}, {}}};
+  if (!has_velocity()) return known;
+  known.order = 1;
+  known.covariance.xv = get(0, 1);
+  known.covariance.vv = get(1, 1);
+  if (!has_acceleration()) return known;
   known.order = 2;
   known.covariance.xa = get(0, 2);
   known.covariance.va = get(1, 2);
   known.covariance.aa = get(2, 2);
   return known;
 }
+
+template class MotionFilter<1>;
+template class MotionFilter<2>;
 
 }  // namespace ghtrack

@@ -30,15 +30,20 @@ struct MotionModel {
 };
 
 /// Extended or unscented Kalman filter of one object in the plane, for any motion and for
-/// measurements of any model: what a radar or a camera measured is used as it is.
+/// measurements of any model: what a radar or a camera measured is used as it is. On one axis, for
+/// motions that need no plane and measured positions, it is the Kalman filter.
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
 /// leave the filter as it was.
+template <int D>
 class MotionFilter {
- public:
-  using Vector = Eigen::Vector2d;
-  using Matrix = Eigen::Matrix2d;
+  static_assert(D == 1 || D == 2);
 
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Matrix = Eigen::Matrix<double, D, D>;
+
+  /// @throws std::invalid_argument if the motion needs a plane, and D is 1
   explicit MotionFilter(const MotionModel& model);
 
   /// "ekf" or "ukf".
@@ -52,11 +57,14 @@ class MotionFilter {
   Propagation propagation() const { return model_.propagation; }
 
   bool start(const Vector& z, const Matrix& covariance);
+  bool start(const Vector& z) { return start(z, nominal_covariance()); }
+  /// Starts at a guess as uncertain as a target at first sight.
+  void start_from(const Kinematics<D>& guess);
   bool predict(double dt);
   bool update(const Vector& z, const Matrix& covariance);
   bool update(const Vector& z) { return update(z, nominal_covariance()); }
   /// Corrects with what the sensor measured. The filter has been started.
-  bool update(const Measurement& measured);
+  bool update(const Measurement& measured) requires(D == 2);
   void coast();
 
   bool is_started() const { return started_; }
@@ -64,8 +72,8 @@ class MotionFilter {
   int consecutive_misses() const { return misses_; }
   const Refusals& refusals() const { return refusals_; }
 
-  const Kinematics<2>& prior() const { return prior_; }
-  const Kinematics<2>& estimate() const { return estimate_; }
+  const Kinematics<D>& prior() const { return prior_; }
+  const Kinematics<D>& estimate() const { return estimate_; }
   /// Of a measured position, z minus the predicted one [m]; of other measurements the correction
   /// that they made to the position.
   const std::optional<Vector>& residual() const { return residual_; }
@@ -82,18 +90,21 @@ class MotionFilter {
   const MotionState& state() const { return x_; }
   const MotionCovariance& covariance() const { return p_; }
   /// Goes on from what another filter knows at this instant; the rest stays as it is.
-  void adopt(const Knowledge<2>& known);
+  void adopt(const Knowledge<D>& known);
   /// Without the covariances between the axes.
-  Knowledge<2> knowledge() const;
+  Knowledge<D> knowledge() const;
   /// Goes on from another state at this instant.
   void set_state(const MotionState& state, const MotionCovariance& covariance);
 
  private:
   Matrix nominal_covariance() const { return model_.sigma * model_.sigma * Matrix::Identity(); }
   Matrix position_covariance() const {
-    return started_ ? Matrix(p_.topLeftCorner<2, 2>()) : Matrix::Zero();
+    return started_ ? Matrix(p_.template topLeftCorner<D, D>()) : Matrix::Zero();
   }
-  Kinematics<2> kinematics() const;
+  Kinematics<D> kinematics() const;
+  bool has_velocity() const { return x_.size() >= 2 * D; }
+  bool has_acceleration() const { return x_.size() == 3 * D; }
+  bool refuse_measurement();
   bool correct(const MeasuredVector& residual, const MeasuredCovariance& s,
                const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 3>& cross,
                const std::optional<Vector>& residual_in_position);
@@ -102,8 +113,8 @@ class MotionFilter {
   Gains steady_;
   MotionState x_;
   MotionCovariance p_;
-  Kinematics<2> prior_;
-  Kinematics<2> estimate_;
+  Kinematics<D> prior_;
+  Kinematics<D> estimate_;
   std::optional<Vector> residual_;
   double log_likelihood_ = 0.0;
   int updates_ = 0;
@@ -111,5 +122,8 @@ class MotionFilter {
   bool started_ = false;
   Refusals refusals_;
 };
+
+extern template class MotionFilter<1>;
+extern template class MotionFilter<2>;
 
 }  // namespace ghtrack

@@ -10,62 +10,80 @@
 namespace ghtrack {
 namespace {
 
-const Kinematics<2>& estimate_of(const SingleFilter& filter) {
-  return std::visit([](const auto& f) -> const Kinematics<2>& { return f.estimate(); }, filter);
+template <int D>
+const Kinematics<D>& estimate_of(const SingleFilter<D>& filter) {
+  return std::visit([](const auto& f) -> const Kinematics<D>& { return f.estimate(); }, filter);
 }
 
-Eigen::Matrix2d innovation_covariance_of(const SingleFilter& filter, const Eigen::Matrix2d& r) {
+template <int D>
+Eigen::Matrix<double, D, D> innovation_covariance_of(const SingleFilter<D>& filter,
+                                                     const typename GainFilter<D>::Matrix& r) {
   return std::visit([&](const auto& f) { return f.innovation_covariance(r); }, filter);
 }
 
 /// ln N(z − x; 0, S) without the constant that all filters share.
-double log_likelihood(const SingleFilter& filter, const Eigen::Vector2d& z,
-                      const Eigen::Matrix2d& covariance) {
-  const Eigen::Vector2d residual = z - estimate_of(filter).position;
-  const Eigen::Matrix2d s = innovation_covariance_of(filter, covariance);
+template <int D>
+double log_likelihood(const SingleFilter<D>& filter, const Eigen::Matrix<double, D, 1>& z,
+                      const Eigen::Matrix<double, D, D>& covariance) {
+  const Eigen::Matrix<double, D, 1> residual = z - estimate_of(filter).position;
+  const Eigen::Matrix<double, D, D> s = innovation_covariance_of(filter, covariance);
   const double nis = residual.dot(s.inverse() * residual);
   return -0.5 * (nis + portable::log(s.determinant()));
 }
 
-double interval_of(const SingleFilter& filter) {
+template <int D>
+double interval_of(const SingleFilter<D>& filter) {
   return std::visit([](const auto& f) { return f.nominal_interval(); }, filter);
 }
 
-double sigma_of(const SingleFilter& filter) {
+template <int D>
+double sigma_of(const SingleFilter<D>& filter) {
   return std::visit([](const auto& f) { return f.sigma(); }, filter);
 }
 
-double staying(const MultipleModelFilter::Model& model, double leaving) {
+template <class Model>
+double staying(const Model& model, double leaving) {
   return (1.0 - leaving) * model.weight;
 }
 
 }  // namespace
 
-MultipleModelFilter::MultipleModelFilter(std::vector<Model> models, double switching)
+template <int D>
+MultipleModelFilter<D>::MultipleModelFilter(std::vector<Model> models, double switching)
     : models_(std::move(models)),
       chain_(models_.size(), switching, models_.empty() ? 1.0 : interval_of(models_.front().filter),
-             models_.empty() ? 1.0 : sigma_of(models_.front().filter)) {
+             models_.empty() ? 1.0 : sigma_of(models_.front().filter), D) {
   share_weights();
 }
 
-std::string_view MultipleModelFilter::name() const {
+template <int D>
+std::string_view MultipleModelFilter<D>::name() const {
   return std::visit([](const auto& f) { return f.name(); }, leader().filter);
 }
 
-std::string MultipleModelFilter::gains_text() const {
+template <int D>
+std::string MultipleModelFilter<D>::gains_text() const {
   return std::visit([](const auto& f) { return f.gains_text(); }, leader().filter);
 }
 
-const Gains& MultipleModelFilter::steady_gains() const {
+template <int D>
+const Gains& MultipleModelFilter<D>::steady_gains() const {
   return std::visit([](const auto& f) -> const Gains& { return f.steady_gains(); },
                     leader().filter);
 }
 
-double MultipleModelFilter::nominal_interval() const { return interval_of(leader().filter); }
+template <int D>
+double MultipleModelFilter<D>::nominal_interval() const {
+  return interval_of(leader().filter);
+}
 
-double MultipleModelFilter::sigma() const { return sigma_of(leader().filter); }
+template <int D>
+double MultipleModelFilter<D>::sigma() const {
+  return sigma_of(leader().filter);
+}
 
-bool MultipleModelFilter::start(const Vector& z, const Matrix& covariance) {
+template <int D>
+bool MultipleModelFilter<D>::start(const Vector& z, const Matrix& covariance) {
   bool started = true;
   for (Model& model : models_) {
     started = std::visit([&](auto& f) { return f.start(z, covariance); }, model.filter) && started;
@@ -80,7 +98,14 @@ bool MultipleModelFilter::start(const Vector& z, const Matrix& covariance) {
   return true;
 }
 
-bool MultipleModelFilter::predict(double dt) {
+template <int D>
+void MultipleModelFilter<D>::start_from(const Kinematics<D>& guess) {
+  if (!start(guess.position)) return;
+  for (Model& model : models_) std::visit([&](auto& f) { f.start_from(guess); }, model.filter);
+}
+
+template <int D>
+bool MultipleModelFilter<D>::predict(double dt) {
   if (is_started() && dt > 0.0 && std::isfinite(dt)) {
     if (chain_.elapsed() == 0.0 && chain_.is_due()) follow_the_leader();
     chain_.predict(dt);
@@ -93,7 +118,8 @@ bool MultipleModelFilter::predict(double dt) {
   return predicted;
 }
 
-bool MultipleModelFilter::update(const Vector& z, const Matrix& covariance) {
+template <int D>
+bool MultipleModelFilter<D>::update(const Vector& z, const Matrix& covariance) {
   if (!is_started()) return start(z, covariance);
   if (!z.allFinite() || !covariance.allFinite()) {
     ++refusals_.measurements;
@@ -111,50 +137,53 @@ bool MultipleModelFilter::update(const Vector& z, const Matrix& covariance) {
   return used;
 }
 
-bool MultipleModelFilter::update(const Vector& z) {
-  return update(z, sigma() * sigma() * Matrix::Identity());
-}
-
-void MultipleModelFilter::coast() {
+template <int D>
+void MultipleModelFilter<D>::coast() {
   for (Model& model : models_) std::visit([](auto& f) { f.coast(); }, model.filter);
 }
 
-bool MultipleModelFilter::is_started() const {
+template <int D>
+bool MultipleModelFilter<D>::is_started() const {
   return std::visit([](const auto& f) { return f.is_started(); }, leader().filter);
 }
 
-int MultipleModelFilter::updates() const {
+template <int D>
+int MultipleModelFilter<D>::updates() const {
   return std::visit([](const auto& f) { return f.updates(); }, leader().filter);
 }
 
-int MultipleModelFilter::consecutive_misses() const {
+template <int D>
+int MultipleModelFilter<D>::consecutive_misses() const {
   return std::visit([](const auto& f) { return f.consecutive_misses(); }, leader().filter);
 }
 
-const Kinematics<2>& MultipleModelFilter::prior() const {
-  return std::visit([](const auto& f) -> const Kinematics<2>& { return f.prior(); },
+template <int D>
+const Kinematics<D>& MultipleModelFilter<D>::prior() const {
+  return std::visit([](const auto& f) -> const Kinematics<D>& { return f.prior(); },
                     leader().filter);
 }
 
-const Kinematics<2>& MultipleModelFilter::estimate() const { return estimate_of(leader().filter); }
+template <int D>
+const Kinematics<D>& MultipleModelFilter<D>::estimate() const {
+  return estimate_of(leader().filter);
+}
 
-const std::optional<Eigen::Vector2d>& MultipleModelFilter::residual() const {
+template <int D>
+auto MultipleModelFilter<D>::residual() const -> const std::optional<Vector>& {
   return std::visit([](const auto& f) -> const std::optional<Vector>& { return f.residual(); },
                     leader().filter);
 }
 
-Eigen::Vector2d MultipleModelFilter::noise_sigma() const {
-  if (const auto* gains = std::get_if<GainFilter<2>>(&leader().filter)) {
+template <int D>
+auto MultipleModelFilter<D>::noise_sigma() const -> Vector {
+  if (const auto* gains = std::get_if<GainFilter<D>>(&leader().filter)) {
     return gains->noise_sigma();
   }
   return std::visit([](const auto& f) -> Vector { return f.position_sigma(); }, leader().filter);
 }
 
-Eigen::Matrix2d MultipleModelFilter::innovation_covariance() const {
-  return innovation_covariance(sigma() * sigma() * Matrix::Identity());
-}
-
-Eigen::Matrix2d MultipleModelFilter::covariance() const {
+template <int D>
+auto MultipleModelFilter<D>::covariance() const -> Matrix {
   Matrix sum = Matrix::Zero();
   for (const Model& model : models_) {
     const Vector d = estimate_of(model.filter).position - estimate().position;
@@ -165,13 +194,15 @@ Eigen::Matrix2d MultipleModelFilter::covariance() const {
 }
 
 /// Weight that a model gets from those that the target gives up.
-double MultipleModelFilter::arriving(const Model& model, double leaving) const {
+template <int D>
+double MultipleModelFilter<D>::arriving(const Model& model, double leaving) const {
   if (models_.size() == 1) return 0.0;
   return leaving * (1.0 - model.weight) / static_cast<double>(models_.size() - 1);
 }
 
 /// The largest variance that a model takes the position to have.
-double MultipleModelFilter::widest_variance() const {
+template <int D>
+double MultipleModelFilter<D>::widest_variance() const {
   double widest = 0.0;
   for (const Model& model : models_) {
     widest = std::max(widest, innovation_covariance_of(model.filter, Matrix::Zero()).trace());
@@ -179,8 +210,9 @@ double MultipleModelFilter::widest_variance() const {
   return widest;
 }
 
-void MultipleModelFilter::follow_the_leader() {
-  const Knowledge<2> known =
+template <int D>
+void MultipleModelFilter<D>::follow_the_leader() {
+  const Knowledge<D> known =
       std::visit([](const auto& f) { return f.knowledge(); }, leader().filter);
   const double left = chain_.has_left();
   for (std::size_t i = 0; i < models_.size(); ++i) {
@@ -190,12 +222,14 @@ void MultipleModelFilter::follow_the_leader() {
   }
 }
 
-void MultipleModelFilter::share_weights() {
+template <int D>
+void MultipleModelFilter<D>::share_weights() {
   for (Model& model : models_) model.weight = 1.0 / static_cast<double>(models_.size());
 }
 
-std::vector<double> MultipleModelFilter::weights_after(const Vector& z,
-                                                       const Matrix& covariance) const {
+template <int D>
+std::vector<double> MultipleModelFilter<D>::weights_after(const Vector& z,
+                                                          const Matrix& covariance) const {
   std::vector<double> weights;
   for (const Model& model : models_) {
     weights.push_back(log_likelihood(model.filter, z, covariance));
@@ -216,10 +250,14 @@ std::vector<double> MultipleModelFilter::weights_after(const Vector& z,
 }
 
 /// The leader stays while no other is more likely.
-void MultipleModelFilter::elect() {
+template <int D>
+void MultipleModelFilter<D>::elect() {
   for (std::size_t i = 0; i < models_.size(); ++i) {
     if (models_[i].weight > models_[leader_].weight) leader_ = i;
   }
 }
+
+template class MultipleModelFilter<1>;
+template class MultipleModelFilter<2>;
 
 }  // namespace ghtrack

@@ -14,9 +14,10 @@
 
 namespace ghtrack {
 
-/// One filter of one object's positions in the plane. Add yours here.
+/// One filter of one object's positions on D axes. Add yours here.
+template <int D>
 using SingleFilter =
-    std::variant<GainFilter<2>, KalmanFilter<1, 2>, KalmanFilter<2, 2>, MotionFilter>;
+    std::variant<GainFilter<D>, KalmanFilter<1, D>, KalmanFilter<2, D>, MotionFilter<D>>;
 
 /// Several filters side by side on the measurements of one object; each keeps its own state, and
 /// the innovations r decide which of them to believe (multiple-model estimation, Magill 1965, with
@@ -35,14 +36,15 @@ using SingleFilter =
 ///
 /// A value: copies are independent filters. Steps that cannot be used are refused, counted, and
 /// leave the filter as it was.
+template <int D>
 class MultipleModelFilter {
  public:
-  using Vector = Eigen::Vector2d;
-  using Matrix = Eigen::Matrix2d;
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Matrix = Eigen::Matrix<double, D, D>;
 
   struct Model {
     std::string name;
-    SingleFilter filter;
+    SingleFilter<D> filter;
     double weight = 1.0;  // probability that the target moves as this filter assumes
   };
 
@@ -62,9 +64,12 @@ class MultipleModelFilter {
   double sigma() const;
 
   bool start(const Vector& z, const Matrix& covariance);
+  bool start(const Vector& z) { return start(z, nominal_covariance()); }
+  /// Starts all filters from a guess, each as it does alone.
+  void start_from(const Kinematics<D>& guess);
   bool predict(double dt);
   bool update(const Vector& z, const Matrix& covariance);
-  bool update(const Vector& z);
+  bool update(const Vector& z) { return update(z, nominal_covariance()); }
   void coast();
 
   bool is_started() const;
@@ -72,17 +77,18 @@ class MultipleModelFilter {
   int consecutive_misses() const;
   const Refusals& refusals() const { return refusals_; }
 
-  const Kinematics<2>& prior() const;
-  const Kinematics<2>& estimate() const;
+  const Kinematics<D>& prior() const;
+  const Kinematics<D>& estimate() const;
   const std::optional<Vector>& residual() const;
   Vector position_sigma() const { return covariance().diagonal().cwiseMax(0.0).cwiseSqrt(); }
   Vector noise_sigma() const;
   Matrix innovation_covariance(const Matrix& measurement) const {
     return measurement + covariance();
   }
-  Matrix innovation_covariance() const;
+  Matrix innovation_covariance() const { return innovation_covariance(nominal_covariance()); }
 
  private:
+  Matrix nominal_covariance() const { return sigma() * sigma() * Matrix::Identity(); }
   Matrix covariance() const;
   double arriving(const Model& model, double leaving) const;
   double widest_variance() const;
@@ -96,5 +102,8 @@ class MultipleModelFilter {
   std::size_t leader_ = 0;
   Refusals refusals_;
 };
+
+extern template class MultipleModelFilter<1>;
+extern template class MultipleModelFilter<2>;
 
 }  // namespace ghtrack

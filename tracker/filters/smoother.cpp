@@ -52,7 +52,7 @@ void smooth(Step& step, const Step& after) {
 
 std::vector<Smoothed> smoothed(const SingleFilterConfig& config, double sigma, double dt,
                                std::span<const TimedPosition> track, std::optional<int> lag) {
-  MotionFilter filter = equivalent_motion(config, sigma, dt);
+  MotionFilter<2> filter(equivalent_motion(config, sigma, dt));
   std::vector<Step> steps;
   std::size_t first = 0;
   while (first < track.size() && !track[first].position) ++first;
@@ -97,7 +97,7 @@ std::vector<Smoothed> smoothed(const SingleFilterConfig& config, double sigma, d
 
 double log_likelihood(const SingleFilterConfig& config, double sigma, double dt,
                       std::span<const TimedPosition> track) {
-  MotionFilter filter = equivalent_motion(config, sigma, dt);
+  MotionFilter<2> filter(equivalent_motion(config, sigma, dt));
   double sum = 0.0;
   double time = 0.0;
   for (const TimedPosition& moment : track) {

@@ -15,17 +15,17 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-MotionFilter polynomial(int order, double density) {
-  return MotionFilter({.motion = PolynomialMotion{.order = order,
-                                                  .process_intensity = density,
-                                                  .initial_acceleration = 5.0},
-                       .initial_speed = 10.0});
+MotionFilter<2> polynomial(int order, double density) {
+  return MotionFilter<2>({.motion = PolynomialMotion{.order = order,
+                                                     .process_intensity = density,
+                                                     .initial_acceleration = 5.0},
+                          .initial_speed = 10.0});
 }
 
 // Derived: modes that are all alike are one filter, whatever the mixing.
 TEST(ImmFilter, OfEqualModesIsTheFilterItself) {
-  MotionFilter single = polynomial(1, 0.5);
-  ImmFilter imm({{"a", polynomial(1, 0.5)}, {"b", polynomial(1, 0.5)}}, 0.2);
+  MotionFilter<2> single = polynomial(1, 0.5);
+  ImmFilter<2> imm({{"a", polynomial(1, 0.5)}, {"b", polynomial(1, 0.5)}}, 0.2);
   for (int i = 0; i < 30; ++i) {
     const Vector2d z(3.0 * i, std::sin(0.7 * i));
     single.predict(1.0);
@@ -44,7 +44,7 @@ TEST(ImmFilter, OfEqualModesIsTheFilterItself) {
 // axis.
 TEST(ImmFilter, MixesByTheBook) {
   const double p = 0.1, q[2] = {0.01, 4.0}, dt = 1.0;
-  ImmFilter imm({{"a", polynomial(1, q[0])}, {"b", polynomial(1, q[1])}}, p);
+  ImmFilter<2> imm({{"a", polynomial(1, q[0])}, {"b", polynomial(1, q[1])}}, p);
   Eigen::Vector2d x[2];
   Eigen::Matrix2d c[2], across[2];  // of this axis; of the other one, whose modes agree
   double mu[2] = {0.5, 0.5};

@@ -17,12 +17,12 @@ using Eigen::Vector2d;
 
 constexpr double kStep = 0.5;
 
-MotionFilter make(const TargetMotion& motion, Propagation propagation, double sigma = 1.0) {
-  return MotionFilter({.motion = motion,
-                       .propagation = propagation,
-                       .sigma = sigma,
-                       .interval = kStep,
-                       .initial_speed = 30.0});
+MotionFilter<2> make(const TargetMotion& motion, Propagation propagation, double sigma = 1.0) {
+  return MotionFilter<2>({.motion = motion,
+                          .propagation = propagation,
+                          .sigma = sigma,
+                          .interval = kStep,
+                          .initial_speed = 30.0});
 }
 
 // Derived: where everything is linear, all three are the Kalman filter.
@@ -32,8 +32,8 @@ TEST(MotionFilter, IsTheKalmanFilterWhereAllIsLinear) {
                              .process_intensity = 0.3,
                              .initial_speed = 30.0,
                              .initial_acceleration = 4.0});
-  MotionFilter extended = make(motion, Propagation::kExtended);
-  MotionFilter unscented = make(motion, Propagation::kUnscented);
+  MotionFilter<2> extended = make(motion, Propagation::kExtended);
+  MotionFilter<2> unscented = make(motion, Propagation::kUnscented);
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   Matrix2d r;
@@ -43,7 +43,7 @@ TEST(MotionFilter, IsTheKalmanFilterWhereAllIsLinear) {
     const Vector2d z(2.0 * i + normal(random), 0.1 * i * i + normal(random));
     kalman.predict(dt);
     kalman.update(z, r);
-    for (MotionFilter* filter : {&extended, &unscented}) {
+    for (MotionFilter<2>* filter : {&extended, &unscented}) {
       filter->predict(dt);
       filter->update(z, r);
       EXPECT_LT((filter->estimate().position - kalman.estimate().position).norm(), 1e-9);

@@ -19,15 +19,15 @@ using Eigen::Vector2d;
 constexpr double kSigma = 0.5;
 constexpr double kStep = 0.1;
 
-MultipleModelFilter cruising_or_turning(double switching = 0.01) {
+MultipleModelFilter<2> cruising_or_turning(double switching = 0.01) {
   const auto with_noise = [](double intensity) {
     return KalmanFilter<1, 2>({.sigma = kSigma,
                                .interval = kStep,
                                .process_intensity = intensity,
                                .initial_speed = 10.0});
   };
-  return MultipleModelFilter({{"cruising", with_noise(0.1)}, {"turning", with_noise(20.0)}},
-                             switching);
+  return MultipleModelFilter<2>({{"cruising", with_noise(0.1)}, {"turning", with_noise(20.0)}},
+                                switching);
 }
 
 /// Flies straight on, and from second 6 to second 9 in a circle of 20 m/s².
@@ -45,7 +45,7 @@ Vector2d truth_at(double time) {
 // Derived: Bayes' rule by hand, with each filter's own innovation before the update.
 TEST(MultipleModel, WeighsByTheLikelihoodOfTheInnovations) {
   constexpr double kSwitching = 0.05;
-  MultipleModelFilter filter = cruising_or_turning(kSwitching);
+  MultipleModelFilter<2> filter = cruising_or_turning(kSwitching);
   const Matrix2d r{{0.3, 0.05}, {0.05, 0.2}};
   std::mt19937 random(2);
   std::normal_distribution<double> noise(0.0, kSigma);
@@ -60,7 +60,7 @@ TEST(MultipleModel, WeighsByTheLikelihoodOfTheInnovations) {
       continue;
     }
     std::vector<double> expected;
-    for (const MultipleModelFilter::Model& model : filter.models()) {
+    for (const MultipleModelFilter<2>::Model& model : filter.models()) {
       const auto& kalman = std::get<KalmanFilter<1, 2>>(model.filter);
       const Matrix2d s = kalman.innovation_covariance(r);
       const Vector2d residual = z - kalman.estimate().position;
@@ -77,7 +77,7 @@ TEST(MultipleModel, WeighsByTheLikelihoodOfTheInnovations) {
 
 // Property: who leads follows how the target moves, and back again.
 TEST(MultipleModel, LetsTheFilterLeadThatTheTargetMovesLike) {
-  MultipleModelFilter filter = cruising_or_turning();
+  MultipleModelFilter<2> filter = cruising_or_turning();
   std::mt19937 random(4);
   std::normal_distribution<double> noise(0.0, kSigma);
   int right = 0;
@@ -100,14 +100,14 @@ TEST(MultipleModel, LetsTheFilterLeadThatTheTargetMovesLike) {
 
 // Derived: covariance about the leader Σ μ (P + d dᵀ).
 TEST(MultipleModel, CountsWhatTheOthersPredictElsewhereAsUncertainty) {
-  MultipleModelFilter filter = cruising_or_turning();
+  MultipleModelFilter<2> filter = cruising_or_turning();
   for (int i = 0; i < 75; ++i) {
     filter.predict(kStep);
     filter.update(truth_at(kStep * i));
   }
   filter.predict(kStep);
   Matrix2d expected = Matrix2d::Zero();
-  for (const MultipleModelFilter::Model& model : filter.models()) {
+  for (const MultipleModelFilter<2>::Model& model : filter.models()) {
     const auto& kalman = std::get<KalmanFilter<1, 2>>(model.filter);
     const Vector2d d = kalman.estimate().position - filter.estimate().position;
     expected += model.weight * (kalman.covariance().topLeftCorner<2, 2>() + d * d.transpose());
@@ -119,7 +119,7 @@ TEST(MultipleModel, CountsWhatTheOthersPredictElsewhereAsUncertainty) {
 // Property: one model alone is that filter.
 TEST(MultipleModel, OfOneModelIsThatFilter) {
   const KalmanFilter<1, 2> kalman({.sigma = kSigma, .initial_speed = 5.0});
-  MultipleModelFilter one({{"only", kalman}}, 0.1);
+  MultipleModelFilter<2> one({{"only", kalman}}, 0.1);
   KalmanFilter<1, 2> alone = kalman;
   for (int i = 0; i < 30; ++i) {
     one.predict(kStep);
@@ -133,7 +133,7 @@ TEST(MultipleModel, OfOneModelIsThatFilter) {
 
 // Property: a measurement far beyond what any model can explain leaves the weights finite.
 TEST(MultipleModel, KeepsItsWeightsUnderAbsurdMeasurements) {
-  MultipleModelFilter filter = cruising_or_turning();
+  MultipleModelFilter<2> filter = cruising_or_turning();
   for (int i = 0; i < 20; ++i) {
     filter.predict(kStep);
     filter.update(truth_at(kStep * i));
@@ -142,7 +142,7 @@ TEST(MultipleModel, KeepsItsWeightsUnderAbsurdMeasurements) {
     filter.predict(kStep);
     filter.update(Vector2d(far, far));
     double sum = 0.0;
-    for (const MultipleModelFilter::Model& model : filter.models()) sum += model.weight;
+    for (const MultipleModelFilter<2>::Model& model : filter.models()) sum += model.weight;
     EXPECT_NEAR(sum, 1.0, 1e-9);
     EXPECT_TRUE(filter.estimate().is_finite());
   }
@@ -150,7 +150,7 @@ TEST(MultipleModel, KeepsItsWeightsUnderAbsurdMeasurements) {
 
 // Property: what has no meaning is refused where the filter is made.
 TEST(MultipleModel, RefusesWhatHasNoMeaning) {
-  EXPECT_THROW(MultipleModelFilter({}, 0.01), std::invalid_argument);
+  EXPECT_THROW(MultipleModelFilter<2>({}, 0.01), std::invalid_argument);
   EXPECT_THROW(cruising_or_turning(0.7), std::invalid_argument);
   EXPECT_THROW(cruising_or_turning(std::nan("")), std::invalid_argument);
   EXPECT_THROW(make_filter(MultipleModelConfig{}, 0.5, 0.1), std::invalid_argument);
