@@ -30,9 +30,8 @@ void FrameMaker::add_tracks(const StepRecord& record) {
   RunningScore& score = scores_[panel];
   if (record.is_in_order()) score.add(record.truth, record.tracks);
   render::PanelFrame& shown = frame_.panels[panel];
-  shown.arrived.push_back(record.tracks);
+  shown.arrived.push_back({record.tracks, score.pairings(), score.rmse()});
   shown.tracks = record.tracks;
-  shown.pairings = score.pairings();
   shown.gospa = score.gospa();
   shown.rmse = score.rmse();
   shown.missed = score.missed();

@@ -13,14 +13,13 @@ constexpr int kMostPoints = 1000;  // on a curve: no picture resolves more
 
 }  // namespace
 
-void ErrorPlot::add(double time, const std::vector<std::optional<double>>& errors) {
-  curves_.resize(std::max(curves_.size(), errors.size()));
-  const double least_step = (to_ - from_) / kMostPoints;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    std::vector<Point>& curve = curves_[i];
-    const bool is_due = curve.empty() || time - curve.back().time >= least_step;
-    if (is_due && errors[i] && std::isfinite(*errors[i])) curve.push_back({time, *errors[i]});
-  }
+void ErrorPlot::add(std::size_t tracker, const ScanReport& report) {
+  if (!report.rmse || !std::isfinite(*report.rmse)) return;
+  curves_.resize(std::max(curves_.size(), tracker + 1));
+  std::vector<Point>& curve = curves_[tracker];
+  const double time = report.tracks.time;
+  const bool is_due = curve.empty() || time - curve.back().time >= (to_ - from_) / kMostPoints;
+  if (is_due) curve.push_back({time, *report.rmse});
 }
 
 void ErrorPlot::draw(Canvas& canvas, const Viewport& area, const Style& style,

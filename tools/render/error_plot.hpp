@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "tools/render/canvas.hpp"
 #include "tools/render/style.hpp"
+#include "tools/render/video.hpp"
 
 namespace ghtrack::render {
 
@@ -12,8 +14,8 @@ class ErrorPlot {
  public:
   ErrorPlot(double from, double to) : from_(from), to_(to) {}
 
-  /// @param errors [m], one per tracker; an absent one is a gap
-  void add(double time, const std::vector<std::optional<double>>& errors);
+  /// Takes note of what one of the trackers says after a scan.
+  void add(std::size_t tracker, const ScanReport& report);
 
   void draw(Canvas& canvas, const Viewport& area, const Style& style, const Typefaces& fonts) const;
 

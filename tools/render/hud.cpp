@@ -115,7 +115,7 @@ void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawi
   const auto fits = [&](const std::u32string& head, const std::u32string& beside) {
     return fonts.bold.width(head, letters) + gap + score_font.width(beside, letters) <= room;
   };
-  std::u32string head = leads ? name + U" – leads" : name;
+  std::u32string head = leads ? name + U" – least GOSPA" : name;
   std::u32string scores = scores_of(panel);
   std::u32string below = regimes;
   if (const std::u32string missed = missed_text(panel); !missed.empty()) {

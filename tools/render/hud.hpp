@@ -11,7 +11,7 @@ void draw_hud(Canvas& canvas, const Viewport& area, const VideoOptions& options,
               const Typefaces& fonts);
 
 /// Writes above one of several panels whose it is, and how it is doing.
-/// @param leads  it is the best so far
+/// @param leads  its GOSPA is the least so far
 void draw_header(Canvas& canvas, const Viewport& area, const PanelDrawing& drawing,
                  const PanelFrame& panel, Color color, bool leads, const Style& style,
                  const Typefaces& fonts);

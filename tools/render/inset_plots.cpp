@@ -12,7 +12,7 @@ namespace ghtrack::render {
 namespace {
 
 constexpr double kSeconds = 10.0;        // of the video that the plots look back
-constexpr int kMostSamples = 300;        // on a curve: no small plot resolves more
+constexpr int kMostSamples = 600;        // on a curve: no small plot resolves more
 constexpr std::size_t kMostCurves = 16;  // more cannot be told apart
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::u32string_view, 4> kTitles{U"error [m]", U"residual [m]", U"x [m]",
@@ -28,28 +28,36 @@ void InsetPlots::add(Curve& curve, const Sample& sample) const {
     samples.push_back(sample);
 }
 
-void InsetPlots::remember(const VideoFrame& frame, const PanelFrame& panel,
-                          const TrackMemory& memory) {
-  now_ = frame.time;
-  if (!first_) first_ = now_;
-  for (const TrackEstimate& track : panel.tracks.tracks) {
+void InsetPlots::note(const ScanReport& report, const TrackMemory& memory) {
+  for (const TrackEstimate& track : report.tracks.tracks) {
     const bool has_room = tracks_.size() < kMostCurves || tracks_.contains(track.id);
     if (track.status == TrackStatus::kTentative || !has_room) continue;
     double error = kNan;
-    for (const Pairing& pairing : panel.pairings)
+    for (const Pairing& pairing : report.pairings)
       if (pairing.track == track.id) error = pairing.distance;
     Curve& curve = tracks_[track.id];
     curve.color = memory.color_of(track);
     curve.name = memory.name_of(track);
-    add(curve, {panel.tracks.time,
+    add(curve, {report.tracks.time,
                 {error, track.residual ? track.residual->norm() : kNan, track.position.x(),
                  track.position.y()}});
   }
-  for (const TruthState& object : frame.truth.objects) {
+}
+
+void InsetPlots::note(const TruthSnapshot& truth) {
+  for (const TruthState& object : truth.objects) {
     if (truth_.size() >= kMostCurves && !truth_.contains(object.id)) continue;
-    Curve& curve = truth_[object.id];
-    add(curve, {frame.time, {kNan, kNan, object.position.x(), object.position.y()}});
+    add(truth_[object.id], {truth.time, {kNan, kNan, object.position.x(), object.position.y()}});
   }
+}
+
+void InsetPlots::remember(const VideoFrame& frame, const PanelFrame& panel,
+                          const TrackMemory& memory) {
+  now_ = frame.time;
+  if (!first_) first_ = now_;
+  for (const ScanReport& report : panel.arrived) note(report, memory);
+  for (const TruthSnapshot& truth : frame.passed) note(truth);
+  note(frame.truth);
   const auto forget = [&](auto& curves) {
     for (auto& [id, curve] : curves)
       while (!curve.samples.empty() && curve.samples.front().time < now_ - seconds_)

@@ -36,6 +36,8 @@ class InsetPlots {
     std::u32string name;
     std::deque<Sample> samples;
   };
+  void note(const ScanReport& report, const TrackMemory& memory);
+  void note(const TruthSnapshot& truth);
   void add(Curve& curve, const Sample& sample) const;
   /// The names of the curves in their colours, in a row. Returns its height [px].
   double draw_key(Canvas& canvas, const Viewport& area, const Style& style,

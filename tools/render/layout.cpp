@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 namespace ghtrack::render {
 
@@ -15,7 +14,8 @@ constexpr double kPlotShare = 0.2;  // of the picture's height
 constexpr double kCloseUpMargin = 12.0;
 constexpr double kNumbersBeside = 52.0;  // of the axes, which a close-up leaves room for
 constexpr double kNumbersBelow = 30.0;
-constexpr double kMarks = 24.0;  // around an object: its track, its detections
+constexpr double kBesideShare = 0.32;  // of a panel's width, for close-ups beside it
+constexpr double kMarks = 24.0;        // around an object: its track, its detections
 
 /// Panels in columns and rows. Where a place is left over, it is for the plots; otherwise they get
 /// a strip below.
@@ -55,18 +55,29 @@ Viewport corner_of(const Viewport& panel, VideoCorner corner, double share, cons
           width, height};
 }
 
-/// Close-ups that share a corner lie one above the other.
-std::vector<Viewport> corners_of(const Viewport& panel, const std::vector<CloseUp>& close_ups,
-                                 const Style& style) {
+bool is_beside(const CloseUp& close_up) { return !close_up.corner; }
+
+/// Close-ups that share a corner, or lie beside the panel, lie one above the other.
+/// @param beside  what is left for those without a corner
+std::vector<Viewport> places_of(const Viewport& panel, const Viewport& beside,
+                                const std::vector<CloseUp>& close_ups, const Style& style) {
+  const double gap = style.length(kPanelGap);
+  const auto count =
+      static_cast<double>(std::count_if(close_ups.begin(), close_ups.end(), is_beside));
+  const double height = (beside.height - gap * (count - 1.0)) / std::max(count, 1.0);
   std::vector<Viewport> places;
   for (std::size_t i = 0; i < close_ups.size(); ++i) {
-    const VideoCorner corner = close_ups[i].corner.value_or(VideoCorner::kTopRight);
+    const auto before = static_cast<double>(
+        std::count_if(close_ups.begin(), close_ups.begin() + static_cast<std::ptrdiff_t>(i),
+                      [&](const CloseUp& other) { return other.corner == close_ups[i].corner; }));
+    if (is_beside(close_ups[i])) {
+      places.push_back({beside.left, beside.top + before * (height + gap), beside.width, height});
+      continue;
+    }
+    const VideoCorner corner = *close_ups[i].corner;
     Viewport place = corner_of(panel, corner, close_ups[i].share, style);
     const bool is_top = corner == VideoCorner::kTopLeft || corner == VideoCorner::kTopRight;
-    const auto before =
-        std::count_if(close_ups.begin(), close_ups.begin() + static_cast<std::ptrdiff_t>(i),
-                      [&](const CloseUp& other) { return other.corner == close_ups[i].corner; });
-    const double step = static_cast<double>(before) * (place.height + style.length(kPanelGap));
+    const double step = before * (place.height + gap);
     place.top += is_top ? step : -step;
     places.push_back(place);
   }
@@ -122,52 +133,50 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
     const Grid other = grid(area, count, columns, gap, strip);
     if (scale(other) > scale(best)) best = other;
   }
+  const bool has_beside =
+      std::any_of(options.close_ups.begin(), options.close_ups.end(), is_beside);
+  const double between = has_beside ? style.length(kPanelGap) : 0.0;
   for (int i = 0; i < count; ++i) {
     const Viewport place = best.place(i);
+    const double top = place.top + header;
+    const double below = place.height - header;
+    const double rest = has_beside ? kBesideShare * place.width : 0.0;
     layout.headers.push_back({place.left, place.top, place.width, header});
-    layout.panels.push_back({place.left, place.top + header, place.width, place.height - header});
+    layout.panels.push_back({place.left, top, place.width - rest, below});
+    layout.close_ups.push_back(places_of(
+        layout.panels.back(), {place.right() - rest + between, top, rest - between, below},
+        options.close_ups, style));
   }
   layout.plots = {0.0, layout.legend.top - strip, width, strip};
   if (best.has_place_left) {
     layout.plots = best.place(count);
     layout.plots.width = area.right() - layout.plots.left;
   }
-  for (const Viewport& panel : layout.panels) {
-    layout.close_ups.push_back(corners_of(panel, options.close_ups, style));
-  }
   return layout;
 }
 
 std::vector<CloseUp> place_close_ups(const VideoOptions& options, const SceneDrawing& scene,
                                      const Style& style, double legend_height) {
-  const auto says_where = [](const CloseUp& close_up) { return close_up.corner.has_value(); };
-  VideoOptions tried = options;
-  const auto placed = [&] {
-    return std::all_of(tried.close_ups.begin(), tried.close_ups.end(), says_where);
-  };
   constexpr std::array kShares{1.0, 0.8, 0.65};
   constexpr std::array kCorners{VideoCorner::kTopRight, VideoCorner::kTopLeft,
                                 VideoCorner::kBottomLeft, VideoCorner::kBottomRight};
-  while (!placed()) {
-    const std::vector<CloseUp> wanted = tried.close_ups;
-    for (const double share : kShares) {
-      for (const VideoCorner corner : kCorners) {
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-          if (says_where(wanted[i])) continue;
-          tried.close_ups[i].corner = corner;
-          tried.close_ups[i].share = share * wanted[i].share;
-        }
-        if (hides_nobody(lay_out(tried, scene, style, legend_height), scene, style)) {
-          return tried.close_ups;
-        }
+  if (std::none_of(options.close_ups.begin(), options.close_ups.end(), is_beside)) {
+    return options.close_ups;
+  }
+  VideoOptions tried = options;
+  for (const double share : kShares) {
+    for (const VideoCorner corner : kCorners) {
+      for (std::size_t i = 0; i < options.close_ups.size(); ++i) {
+        if (options.close_ups[i].corner) continue;
+        tried.close_ups[i].corner = corner;
+        tried.close_ups[i].share = share * options.close_ups[i].share;
+      }
+      if (hides_nobody(lay_out(tried, scene, style, legend_height), scene, style)) {
+        return tried.close_ups;
       }
     }
-    tried.close_ups = wanted;
-    const auto last =
-        std::find_if_not(tried.close_ups.rbegin(), tried.close_ups.rend(), says_where);
-    tried.close_ups.erase(std::next(last).base());
   }
-  return tried.close_ups;
+  return options.close_ups;
 }
 
 }  // namespace ghtrack::render

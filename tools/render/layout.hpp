@@ -13,7 +13,7 @@ struct Layout {
   std::vector<Viewport> headers;  // of the panels, when there are several
   std::vector<Viewport> panels;   // what shows the world, one for each compared filter
   Viewport plots;                 // over time
-  std::vector<std::vector<Viewport>> close_ups;  // on top of each panel
+  std::vector<std::vector<Viewport>> close_ups;  // on top of each panel, or beside it
   Viewport legend;
 };
 
@@ -23,7 +23,7 @@ Layout lay_out(const VideoOptions& options, const SceneDrawing& scene, const Sty
                double legend_height);
 
 /// Close-ups that say no corner get the first in which all of them hide nobody during the whole
-/// run, if need be smaller; if that cannot be, the last of them are left out.
+/// run, if need be smaller; if there is none, they stay without and lie beside the panel.
 std::vector<CloseUp> place_close_ups(const VideoOptions& options, const SceneDrawing& scene,
                                      const Style& style, double legend_height);
 

@@ -108,6 +108,10 @@ void draw_sign(Canvas& canvas, Sign sign, Pixel m, const Style& style, double wi
     case Sign::kSwitch:
       canvas.ring(m, 9 * u, style.theme().detection, style.length(3));
       break;
+    case Sign::kLeader:
+      canvas.disc(m, 5 * u, color);
+      canvas.ring(m, 9 * u, color, style.length(2));
+      break;
     case Sign::kFieldOfView:
       canvas.dashed({at(-12, 0), at(12, 0)}, style.theme().axis_text, 7 * u, 5 * u,
                     style.length(1.3));
@@ -176,6 +180,7 @@ Legend::Legend(const VideoOptions& options, const SceneDrawing& scene, const Sty
     add({Sign::kLost}, U"lost");
     add({Sign::kSwitch}, U"ID switch");
   }
+  if (scene.panels.size() > 1) add({Sign::kLeader}, U"least GOSPA so far");
   break_into_rows(options.width - 2.0 * style.length(kMargin));
 }
 

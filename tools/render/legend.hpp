@@ -33,6 +33,7 @@ enum class Sign {
   kCoasting,
   kLost,
   kSwitch,
+  kLeader,
 };
 
 /// The lines at the bottom that explain the signs which the pictures of a video may show.

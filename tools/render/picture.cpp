@@ -114,14 +114,11 @@ void Picture::remember(const VideoFrame& frame) {
 void Picture::take_note_of(const VideoFrame& frame) {
   camera_.remember(frame.truth);
   past_.remember(frame);
-  std::vector<std::optional<double>> errors;
   for (std::size_t i = 0; i < panels_.size() && i < frame.panels.size(); ++i) {
     panels_[i].memory.remember(frame, frame.panels[i]);
-    errors.push_back(frame.panels[i].rmse);
+    for (const ScanReport& report : frame.panels[i].arrived) errors_.add(i, report);
   }
-  if (panels_.size() > 1)
-    errors_.add(frame.time, errors);
-  else if (options_.layers.shows(Layer::kInsets) && !frame.panels.empty())
+  if (panels_.size() == 1 && options_.layers.shows(Layer::kInsets) && !frame.panels.empty())
     insets_.remember(frame, frame.panels.front(), panels_.front().memory);
 }
 

@@ -118,8 +118,8 @@ void TrackMemory::take(const TrackSnapshot& tracks) {
 
 /// Whom tracks follow: it names and colours them. An object that one confirmed track followed
 /// before and another one follows now is a switch of identity.
-void TrackMemory::note_objects(const PanelFrame& panel) {
-  for (const Pairing& pairing : panel.pairings) {
+void TrackMemory::note_objects(const std::vector<Pairing>& pairings) {
+  for (const Pairing& pairing : pairings) {
     const auto trace = traces_.find(pairing.track);
     if (trace == traces_.end()) continue;
     if (trace->second.object != pairing.object) trace->second.label.clear();
@@ -163,13 +163,9 @@ void TrackMemory::update_label(Trace& trace, double now, double since) const {
 void TrackMemory::remember(const VideoFrame& frame, const PanelFrame& panel) {
   const double since = std::max(0.0, frame.time - now_.value_or(frame.time));
   now_ = frame.time;
-  for (std::size_t i = 0; i + 1 < panel.arrived.size(); ++i) {
-    take(panel.arrived[i]);
-    end_unseen();
-  }
-  if (panel.tracks.time > snapshot_time_ || panel.tracks.sensor != snapshot_sensor_) {
-    take(panel.tracks);
-    note_objects(panel);
+  for (const ScanReport& report : panel.arrived) {
+    take(report.tracks);
+    note_objects(report.pairings);
     end_unseen();
   }
   for (auto& [id, trace] : traces_) {

@@ -73,7 +73,7 @@ class TrackMemory {
 
  private:
   void take(const TrackSnapshot& tracks);
-  void note_objects(const PanelFrame& panel);
+  void note_objects(const std::vector<Pairing>& pairings);
   void end_unseen();
   void update_label(Trace& trace, double now, double since) const;
   std::size_t color_for(const Trace& new_trace) const;

@@ -47,10 +47,10 @@ struct Shot {
 struct CloseUp {
   ObjectId target = 0;
   double width = 10.0;  // [m] of the world across it
-  /// Absent: one in which it hides nobody during the whole run. Where there is none, it is left
-  /// out.
+  /// Absent: one in which it hides nobody during the whole run, or beside the panel if there is
+  /// none.
   std::optional<VideoCorner> corner = VideoCorner::kTopRight;
-  double share = 0.27;  // of the panel's width
+  double share = 0.27;  // of the panel's width, in a corner
 };
 
 /// How a video is to be made.
@@ -137,11 +137,17 @@ struct Pairing {
   double distance = 0.0;  // [m]
 };
 
+/// What one tracker says after a scan, and how well it has done until then.
+struct ScanReport {
+  TrackSnapshot tracks;
+  std::vector<Pairing> pairings;
+  std::optional<double> rmse = {};  // [m] of the positions, running
+};
+
 /// What one tracker says at the time of a frame.
 struct PanelFrame {
-  TrackSnapshot tracks;                // the latest at the frame's time
-  std::vector<TrackSnapshot> arrived;  // all since the frame before, with the latest
-  std::vector<Pairing> pairings;       // of that snapshot
+  TrackSnapshot tracks;             // the latest at the frame's time
+  std::vector<ScanReport> arrived;  // all since the frame before, with the latest
   std::optional<double> gospa;         // [m], running; shown if given
   std::optional<double> rmse;          // [m] of the positions, running; shown and plotted if given
   std::optional<double> missed =

@@ -148,7 +148,8 @@ VideoFrame SyntheticScene::next() {
 
   for (std::size_t panel = 0; panel < filters_.size(); ++panel) {
     PanelFrame shown;
-    shown.tracks.time = frame.time;
+    ScanReport report;
+    report.tracks.time = frame.time;
     auto& filters = filters_[panel];
     for (const TruthState& object : frame.truth.objects) {
       const auto found = seen.find(object.id);
@@ -162,15 +163,18 @@ VideoFrame SyntheticScene::next() {
         filters.erase(filter);
         continue;
       }
-      shown.tracks.tracks.push_back(filter->second.track);
+      report.tracks.tracks.push_back(filter->second.track);
       const double error = (filter->second.track.position - object.position).norm();
       if (filter->second.track.status != TrackStatus::kTentative)
-        shown.pairings.push_back({object.id, filter->second.track.id, error});
+        report.pairings.push_back({object.id, filter->second.track.id, error});
       squared_error_[panel] += (filter->second.track.position - object.position).squaredNorm();
       ++errors_[panel];
     }
-    if (errors_[panel] > 0) shown.rmse = std::sqrt(squared_error_[panel] / errors_[panel]);
+    if (errors_[panel] > 0) report.rmse = std::sqrt(squared_error_[panel] / errors_[panel]);
+    shown.rmse = report.rmse;
     if (panel == 0) shown.gospa = 1.7;
+    shown.tracks = report.tracks;
+    shown.arrived = {report};
     frame.panels.push_back(shown);
   }
   frame.arrived.push_back(observation);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <tuple>
 #include <vector>
 
 namespace ghtrack::render {
@@ -19,6 +20,13 @@ std::vector<ObjectInfo> objects() {
     all[static_cast<std::size_t>(i)].name = "object " + std::to_string(i);
   }
   return all;
+}
+
+PanelFrame after(const ScanReport& report) {
+  PanelFrame panel;
+  panel.tracks = report.tracks;
+  panel.arrived = {report};
+  return panel;
 }
 
 // Property: tracks that are alive together look different as long as there are colours, whatever
@@ -38,17 +46,17 @@ TEST(TrackMemory, TellsTracksApartByColour) {
     if (scan % 5 == 2) std::swap(follows[random() % kObjects], follows[random() % kObjects]);
     VideoFrame frame;
     frame.time = 0.1 * scan;
-    PanelFrame panel;
-    panel.tracks.time = frame.time;
+    ScanReport report;
+    report.tracks.time = frame.time;
     for (std::size_t i = 0; i < kObjects; ++i) {
-      TrackEstimate& track = panel.tracks.tracks.emplace_back();
+      TrackEstimate& track = report.tracks.tracks.emplace_back();
       track.id = ids[i];
       track.status = TrackStatus::kConfirmed;
-      panel.pairings.push_back({.object = named[follows[i]].id, .track = ids[i], .distance = 0.0});
+      report.pairings.push_back({.object = named[follows[i]].id, .track = ids[i], .distance = 0.0});
     }
-    memory.remember(frame, panel);
+    memory.remember(frame, after(report));
     std::vector<Color> colors;
-    for (const TrackEstimate& track : panel.tracks.tracks) {
+    for (const TrackEstimate& track : report.tracks.tracks) {
       const Color color = memory.color_of(track);
       EXPECT_EQ(std::count(colors.begin(), colors.end(), color), 0) << "scan " << scan;
       colors.push_back(color);
@@ -66,13 +74,13 @@ TEST(TrackMemory, NumbersTracksWhereNamesDoNotTellThemApart) {
   const auto label_of = [&](double time, int track, std::optional<ObjectId> follows) {
     VideoFrame frame;
     frame.time = time;
-    PanelFrame panel;
-    panel.tracks.time = time;
-    TrackEstimate& estimate = panel.tracks.tracks.emplace_back();
+    ScanReport report;
+    report.tracks.time = time;
+    TrackEstimate& estimate = report.tracks.tracks.emplace_back();
     estimate.id = track;
     estimate.status = TrackStatus::kConfirmed;
-    if (follows) panel.pairings.push_back({.object = *follows, .track = track, .distance = 0.0});
-    memory.remember(frame, panel);
+    if (follows) report.pairings.push_back({.object = *follows, .track = track, .distance = 0.0});
+    memory.remember(frame, after(report));
     return memory.traces().at(track).label;
   };
   EXPECT_EQ(label_of(0.0, 24, named[1].id), U"object 1 · 0.0 m/s");
@@ -97,8 +105,8 @@ TEST(TrackMemory, KeepsEveryScanOfATrail) {
   int scan = 0;
   for (const int until : {1, 11, 12, 20}) {
     PanelFrame panel;
-    for (; scan < until; ++scan) panel.arrived.push_back(snapshot(scan));
-    panel.tracks = panel.arrived.back();
+    for (; scan < until; ++scan) panel.arrived.push_back({snapshot(scan), {}});
+    panel.tracks = panel.arrived.back().tracks;
     VideoFrame frame;
     frame.time = panel.tracks.time;
     memory.remember(frame, panel);
@@ -109,6 +117,48 @@ TEST(TrackMemory, KeepsEveryScanOfATrail) {
     const auto x = static_cast<double>(i);
     EXPECT_EQ(trail[i].second, Vec2(x, x * x));
   }
+}
+
+// Property: who follows whom and in which colour is what the scans say, however few of them a frame
+// is drawn at: a fast video shows the same as a slow one.
+TEST(TrackMemory, RemembersTheSameHoweverFewFramesThereAre) {
+  const std::vector<ObjectInfo> named = objects();
+  constexpr int kScans = 240;
+  const auto remembered_with = [&](int scans_a_frame) {
+    TrackMemory memory({}, named);
+    std::mt19937 random(4);
+    std::vector<int> ids(kObjects);
+    std::iota(ids.begin(), ids.end(), 1);
+    int next_id = kObjects + 1;
+    PanelFrame panel;
+    for (int scan = 0; scan < kScans; ++scan) {
+      if (scan % 3 == 1) ids[random() % kObjects] = next_id++;
+      ScanReport report;
+      report.tracks.time = 0.01 * scan;
+      for (std::size_t i = 0; i < kObjects; ++i) {
+        TrackEstimate& track = report.tracks.tracks.emplace_back();
+        track.id = ids[i];
+        track.status = TrackStatus::kConfirmed;
+        report.pairings.push_back({.object = named[i].id, .track = ids[i], .distance = 0.0});
+      }
+      panel.tracks = report.tracks;
+      panel.arrived.push_back(std::move(report));
+      if ((scan + 1) % scans_a_frame != 0) continue;
+      VideoFrame frame;
+      frame.time = 0.01 * scan;
+      memory.remember(frame, panel);
+      panel.arrived.clear();
+    }
+    std::vector<std::u32string> names;
+    std::vector<Color> colors;
+    for (const TrackEstimate& track : panel.tracks.tracks) {
+      names.push_back(memory.name_of(track));
+      colors.push_back(memory.color_of(track));
+    }
+    return std::tuple(names, colors, memory.events().size(), memory.past().size());
+  };
+  const auto each_scan = remembered_with(1);
+  for (const int scans_a_frame : {2, 8, 60}) EXPECT_EQ(remembered_with(scans_a_frame), each_scan);
 }
 
 }  // namespace
