@@ -6,11 +6,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "scenes/schema/diagnostic.hpp"
+#include "scenes/schema/reader.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/data_source.hpp"
 #include "tools/cli/paths.hpp"
+#include "tools/cli/run_series.hpp"
 #include "tools/cli/usage_error.hpp"
 #include "tools/plot/figure_file.hpp"
 #include "tools/plot/series_figure.hpp"
@@ -34,6 +37,17 @@ double cutoff_of_run(const fs::path& folder) {
   return found != json["parameters"].end() && found->is_number() ? found->get<double>() : 0.0;
 }
 
+/// As the scene of a run says, beside its results.
+plot::SeriesLabels labels_of_run(const fs::path& folder, const std::string& title) {
+  plot::SeriesLabels labels;
+  if (const fs::path file = folder / "scene.yaml"; is_there(file)) {
+    const Scene scene = read_scene(file.string());
+    if (const auto* const series = std::get_if<SeriesScene>(&scene)) labels = labels_of(*series);
+  }
+  labels.title = title;
+  return labels;
+}
+
 plot::Figure figure_of(const PlotOptions& options) {
   const fs::path source = options.source;
   std::error_code ignored;
@@ -45,7 +59,8 @@ plot::Figure figure_of(const PlotOptions& options) {
     return plot::figure_of_study(source.string(), options.title);
   }
   if (is_run && is_there(source / "series.csv")) {
-    return plot::figure_of_series((source / "series.csv").string(), {.title = options.title});
+    return plot::figure_of_series((source / "series.csv").string(),
+                                  labels_of_run(source, options.title));
   }
   if (is_run && !is_there(source / "tracks.csv")) {
     throw InputError(

@@ -14,7 +14,6 @@
 #include "tools/cli/messages.hpp"
 #include "tools/film/belief_plot.hpp"
 #include "tools/plot/figure_file.hpp"
-#include "tools/plot/series_figure.hpp"
 #include "tools/record/atomic_file.hpp"
 #include "tools/record/csv_writer.hpp"
 #include "tools/run/series.hpp"
@@ -142,10 +141,7 @@ std::string as_table(const SeriesResult& result) {
 
 /// Measurements, estimates and truth, residuals and errors.
 plot::Figure figure_of(const SeriesScene& scene, const SeriesResult& result, const fs::path& csv) {
-  plot::SeriesLabels labels{.title = scene.name,
-                            .time = scene.plot.x_label,
-                            .value = scene.plot.y_label,
-                            .shows_measurements = !std::holds_alternative<WalkSeries>(scene.data)};
+  plot::SeriesLabels labels = labels_of(scene);
   for (const SeriesTrack& track : result.tracks) {
     labels.filters[track.filter] = fmt::format("{} ({})", track.filter, track.gains);
   }
@@ -153,6 +149,14 @@ plot::Figure figure_of(const SeriesScene& scene, const SeriesResult& result, con
 }
 
 }  // namespace
+
+plot::SeriesLabels labels_of(const SeriesScene& scene) {
+  return {.title = scene.name,
+          .time = scene.plot.x_label,
+          .value = scene.plot.y_label,
+          .shows_measurements = !is_of_readings(scene),
+          .ring = ring_of(scene)};
+}
 
 void run_series(const SeriesScene& scene, ResultFolder& results, bool plots) {
   const fs::path& folder = results.scratch();

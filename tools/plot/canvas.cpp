@@ -21,10 +21,12 @@ Palette::Palette(bool dark)
 Colour Palette::of(int number) const {
   if (number == -1) return ink;
   if (number < -1) return faint;
-  constexpr std::array<unsigned, 7> kLight = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7,
-                                              0xe69f00, 0x56b4e9, 0x6f4e9c};
-  constexpr std::array<unsigned, 7> kDark = {0x56b4e9, 0xe69f00, 0x2fc79a, 0xe59fc6,
-                                             0xff8a4c, 0x9fd4f5, 0xb79ce0};
+  constexpr std::array<unsigned, kColours> kLight = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7,
+                                                     0xe69f00, 0x56b4e9, 0x6f4e9c, 0x766900,
+                                                     0xc4384c, 0x855c30, 0x3a8a96, 0x42760c};
+  constexpr std::array<unsigned, kColours> kDark = {0x56b4e9, 0xe69f00, 0x2fc79a, 0xe59fc6,
+                                                    0xff8a4c, 0x3a86ff, 0xb79ce0, 0xf0e442,
+                                                    0xff6969, 0xc49a6c, 0x5ee1d5, 0xa1d662};
   const auto& colours = dark_ ? kDark : kLight;
   return of_hex(colours[static_cast<std::size_t>(number) % colours.size()]);
 }

@@ -2,6 +2,7 @@
 
 #include <cairo.h>
 
+#include <cstddef>
 #include <string>
 
 #include "tools/plot/figure.hpp"
@@ -18,7 +19,10 @@ struct Palette {
   explicit Palette(bool dark);
   Colour ground, ink, faint, grid;
 
-  /// Of a curve: eight that colour-blind people tell apart (Okabe & Ito 2008), again and again.
+  static constexpr std::size_t kColours = 12;  // that can be told apart
+
+  /// Of a curve: first those that colour-blind people tell apart (Okabe & Ito 2008), after the
+  /// twelfth again.
   Colour of(int number) const;
 
  private:

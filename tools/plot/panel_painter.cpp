@@ -14,7 +14,8 @@ namespace {
 
 using Align = Canvas::Align;
 
-constexpr std::size_t kFewDots = 300;  // that are drawn larger
+constexpr std::size_t kFewDots = 300;    // of a curve, that are drawn larger
+constexpr std::size_t kManyDots = 6000;  // of all curves, that are drawn smaller
 
 /// The least and the greatest of finite values.
 struct Range {
@@ -150,13 +151,24 @@ std::optional<std::pair<double, double>> only_place(const Curve& curve) {
   return place;
 }
 
+/// The size of dots, smaller where there are many.
+double dot_radius(const Panel& panel, double font_size) {
+  std::size_t most = 0, dots = 0;
+  for (const Curve& curve : panel.curves) {
+    if (curve.mark != Mark::kDots && curve.mark != Mark::kRings) continue;
+    most = std::max(most, curve.x.size());
+    dots += curve.x.size();
+  }
+  if (dots > kManyDots) return 0.07 * font_size;
+  return (most <= kFewDots ? 0.2 : 0.11) * font_size;
+}
+
 void draw_curve(Canvas& canvas, const Frame& frame, const Curve& curve, const Palette& palette,
-                double font_size) {
+                double font_size, double radius) {
   cairo_t* const cairo = canvas.cairo();
   canvas.set(palette.of(curve.colour).with_alpha(curve.colour < -1 ? 0.7 : 1.0));
   if (curve.mark == Mark::kDots || curve.mark == Mark::kRings) {
-    const bool few = curve.x.size() <= kFewDots;
-    return draw_dots(canvas, frame, curve, font_size * (few ? 0.2 : 0.11));
+    return draw_dots(canvas, frame, curve, radius);
   }
   const double dashes[] = {font_size * 0.45, font_size * 0.3};
   cairo_set_dash(cairo, dashes, curve.mark == Mark::kDashes ? 2 : 0, 0.0);
@@ -351,7 +363,10 @@ void draw_panel(Canvas& canvas, const Panel& panel, const Rectangle& place, cons
   cairo_rectangle(cairo, plot.x, plot.y, plot.width, plot.height);
   cairo_clip(cairo);
   for (const Band& band : panel.bands) draw_band(canvas, frame, band, palette);
-  for (const Curve& curve : panel.curves) draw_curve(canvas, frame, curve, palette, font_size);
+  const double radius = dot_radius(panel, font_size);
+  for (const Curve& curve : panel.curves) {
+    draw_curve(canvas, frame, curve, palette, font_size, radius);
+  }
   draw_levels(canvas, panel, frame, palette, font_size);
   cairo_restore(cairo);
   canvas.set(palette.faint);

@@ -65,6 +65,20 @@ Panel panel_of(const FilteredSeries& series, const SeriesLabels& labels, const s
   return panel;
 }
 
+/// Interrupts a curve where it passes from one end of a ring to the other.
+void interrupt_at_seam(Curve& curve, double ring) {
+  Curve whole = std::move(curve);
+  curve = {.name = whole.name, .x = {}, .y = {}, .mark = whole.mark, .colour = whole.colour};
+  for (std::size_t i = 0; i < whole.y.size(); ++i) {
+    if (i > 0 && std::abs(whole.y[i] - whole.y[i - 1]) > 0.5 * ring) {
+      curve.x.push_back(whole.x[i]);
+      curve.y.push_back(kNothing);
+    }
+    curve.x.push_back(whole.x[i]);
+    curve.y.push_back(whole.y[i]);
+  }
+}
+
 void add_bounds(Panel& panel) {
   double sum = 0.0;
   std::size_t count = 0;
@@ -111,6 +125,9 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
     values.curves.push_back(
         {.name = "truth", .x = t, .y = *truth, .mark = Mark::kDashes, .colour = -1});
   }
+  for (Curve& curve : values.curves) {
+    if (labels.ring && curve.mark != Mark::kDots) interrupt_at_seam(curve, *labels.ring);
+  }
   figure.panels.push_back(std::move(values));
   Panel residual =
       panel_of(series, labels, title("residual"), "z − prior", "residual" + suffix, Mark::kLine);
@@ -122,7 +139,9 @@ void add_axis(const FilteredSeries& series, const SeriesLabels& labels, const st
     for (std::size_t i = 0; i < error.curves.size(); ++i) {
       const auto* const own = column(series, series.filters[i], "truth" + suffix);
       for (std::size_t k = 0; own != nullptr && k < error.curves[i].y.size(); ++k) {
-        error.curves[i].y[k] -= (*own)[k];
+        double& value = error.curves[i].y[k];
+        value -= (*own)[k];
+        if (labels.ring) value = std::remainder(value, *labels.ring);
       }
     }
     figure.panels.push_back(std::move(error));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "tools/plot/figure.hpp"
@@ -17,6 +18,7 @@ struct SeriesLabels {
   std::string value = "x";
   std::map<std::string, std::string> filters = {};  // by name; others are called by that
   bool shows_measurements = true;                   // readings of another kind cannot be shown
+  std::optional<double> ring = {};                  // places around which the series goes, if any
 };
 
 /// A filtered series: measurements, estimates and truth; residuals with twice their root mean

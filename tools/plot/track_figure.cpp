@@ -17,7 +17,7 @@
 namespace ghtrack::plot {
 namespace {
 
-constexpr std::size_t kFew = 8;           // tracks that a legend or bands can show
+constexpr std::size_t kFew = 8;  // tracks that a legend or bands can show, each in its colour
 constexpr double kUpper95 = 5.991464547;  // of χ² with 2 degrees of freedom
 constexpr double kLongAgo = 1e6;          // times beyond are shown since the first [s]
 
@@ -124,10 +124,21 @@ Panel positions(const Data& data, const std::string& title, const std::string& y
     seen.y.insert(seen.y.end(), y(curves).begin(), y(curves).end());
   }
   if (!seen.x.empty()) panel.curves.push_back(std::move(seen));
-  const bool named = along_path && data.tracks.size() <= kFew;  // one legend for all panels
+  const auto add_truth = [&] {
+    for (std::size_t i = 0; i < data.truth.size(); ++i) {
+      panel.curves.push_back({.name = along_path && i == 0 ? "truth" : "",
+                              .x = x_of(data.truth[i]),
+                              .y = y(data.truth[i]),
+                              .mark = Mark::kDashes,
+                              .colour = -1});
+    }
+  };
+  const bool is_few = data.tracks.size() <= kFew;
+  if (!is_few) add_truth();  // below the tracks of a crowd, which it would hide
   const auto name_of = [&](std::size_t i) -> std::string {
-    if (named) return "track " + data.tracks[i].name;
-    return along_path && i == 0 ? fmt::format("one of {} tracks", data.tracks.size()) : "";
+    if (!along_path) return "";  // one legend for all panels
+    if (is_few) return "track " + data.tracks[i].name;
+    return i == 0 ? fmt::format("one of {} tracks", data.tracks.size()) : "";
   };
   for (std::size_t i = 0; i < data.tracks.size(); ++i) {
     panel.curves.push_back({.name = name_of(i),
@@ -136,13 +147,7 @@ Panel positions(const Data& data, const std::string& title, const std::string& y
                             .mark = Mark::kLine,
                             .colour = static_cast<int>(i)});
   }
-  for (std::size_t i = 0; i < data.truth.size(); ++i) {
-    panel.curves.push_back({.name = along_path && i == 0 ? "truth" : "",
-                            .x = x_of(data.truth[i]),
-                            .y = y(data.truth[i]),
-                            .mark = Mark::kDashes,
-                            .colour = -1});
-  }
+  if (is_few) add_truth();
   return panel;
 }
 

@@ -72,17 +72,6 @@ discrete_bayes::Belief belief_of(const AxisFilter& filter) {
   return histogram != nullptr ? histogram->belief() : discrete_bayes::Belief();
 }
 
-/// The places of the ring that a series is of; absent if it is of a line.
-std::optional<double> ring_of(const SeriesScene& scene) {
-  if (const auto* const walk = std::get_if<WalkSeries>(&scene.data)) {
-    return static_cast<double>(walk->map.size());
-  }
-  for (const SeriesFilter& filter : scene.filters) {
-    if (const auto places = places_on_ring(filter.model)) return places;
-  }
-  return std::nullopt;
-}
-
 /// What a value is off, on a ring of places the short way round.
 double error_of(double value, double truth, const std::optional<double>& ring) {
   const double error = value - truth;
@@ -193,16 +182,29 @@ std::vector<SeriesMeasurement> measure(const GeneratedSeries& series, double dt,
   return measurements;
 }
 
+std::optional<double> ring_of(const SeriesScene& scene) {
+  if (const auto* const walk = std::get_if<WalkSeries>(&scene.data)) {
+    return static_cast<double>(walk->map.size());
+  }
+  for (const SeriesFilter& filter : scene.filters) {
+    if (const auto places = places_on_ring(filter.model)) return places;
+  }
+  return std::nullopt;
+}
+
+bool is_of_readings(const SeriesScene& scene) {
+  return std::holds_alternative<WalkSeries>(scene.data) ||
+         std::any_of(scene.filters.begin(), scene.filters.end(),
+                     [](const SeriesFilter& filter) { return !measures_state(filter.model); });
+}
+
 SeriesResult run(const SeriesScene& scene) {
   const std::vector<SeriesMeasurement> measurements = std::visit(
       [&](const auto& series) { return measure(series, scene.dt, scene.seed); }, scene.data);
   SeriesResult result{.measurements = measurements, .tracks = {}, .measurement_rmse = {}};
   const std::optional<double> ring = ring_of(scene);
   MeanSquare errors;
-  const bool are_readings =  // no places
-      std::holds_alternative<WalkSeries>(scene.data) ||
-      std::any_of(scene.filters.begin(), scene.filters.end(),
-                  [](const SeriesFilter& filter) { return !measures_state(filter.model); });
+  const bool are_readings = is_of_readings(scene);
   for (const SeriesMeasurement& measurement : measurements) {
     const bool is_comparable = measurement.truth && !are_readings && !std::isnan(measurement.z);
     if (is_comparable) errors.add(error_of(measurement.z, *measurement.truth, ring));

@@ -58,6 +58,12 @@ struct SeriesResult {
   std::optional<double> measurement_rmse;  // √ mean (z − truth)²
 };
 
+/// The places of the ring that a series is of; absent if it is of a line.
+std::optional<double> ring_of(const SeriesScene& scene);
+
+/// Whether its measurements are no places but what is read there, such as a door.
+bool is_of_readings(const SeriesScene& scene);
+
 /// Measurements by a law of motion; the noise of a point depends on the seed and its number alone.
 /// @param dt  time between points [s]
 std::vector<SeriesMeasurement> measure(const GeneratedSeries& series, double dt,

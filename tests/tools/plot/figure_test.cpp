@@ -12,6 +12,7 @@
 
 #include "tests/tools/record/scratch_folder.hpp"
 #include "tools/plot/axis.hpp"
+#include "tools/plot/canvas.hpp"
 #include "tools/plot/figure_file.hpp"
 #include "tools/plot/series_figure.hpp"
 #include "tools/plot/track_figure.hpp"
@@ -203,6 +204,38 @@ TEST(SeriesFigure, ShowsEstimateResidualErrorAndRate) {
   EXPECT_THAT(titles_of(figure), ElementsAre("estimate", "residual", "error", "rate"));
   EXPECT_EQ(figure.panels[0].curves.size(), 4U);  // measured, a, b, truth
   EXPECT_THAT(figure.panels[2].curves[1].y, ElementsAre(0.25, 0.25));
+}
+
+// Derived: on a ring of ten places 9 is one before 0, so that an estimate of 9 where 0 is true is
+// off by −1 and one of 0 where 9 is true by 1; no curve crosses the hallway where its ends meet,
+// and readings of doors are not drawn as places.
+TEST(SeriesFigure, GoesTheShortWayRoundARing) {
+  const ScratchFolder folder;
+  const auto series = folder.write("series.csv",
+                                   "filter,k,t,z,x_pred,dx_pred,residual,x,dx,truth\n"
+                                   "a,1,1,0,8,0,,8,0,8\na,2,2,0,9,0,,9,0,0\na,3,3,1,9,0,,0,0,9\n");
+  const Figure figure = figure_of_series(series, {.shows_measurements = false, .ring = 10.0});
+  ASSERT_EQ(figure.panels.at(0).curves.size(), 2U);
+  EXPECT_EQ(figure.panels[0].curves[0].y.size(), 4U);  // 8, 9, nothing, 0
+  EXPECT_TRUE(std::isnan(figure.panels[0].curves[0].y[2]));
+  EXPECT_EQ(figure.panels[0].curves[1].y.size(), 5U);  // 8, nothing, 0, nothing, 9
+  EXPECT_THAT(figure.panels.at(2).curves.at(0).y, ElementsAre(0.0, -1.0, 1.0));
+}
+
+// Property: as many tracks as a legend names have colours of their own, on any ground, and more;
+// no two are nearer to each other than a twelfth of the way from black to white.
+TEST(Palette, HasColoursThatCanBeToldApart) {
+  for (const bool dark : {false, true}) {
+    const Palette palette(dark);
+    for (int i = 0; i < static_cast<int>(Palette::kColours); ++i) {
+      for (int k = 0; k < i; ++k) {
+        const Colour a = palette.of(i), b = palette.of(k);
+        EXPECT_GT(std::hypot(a.red - b.red, a.green - b.green, a.blue - b.blue),
+                  std::sqrt(3.0) / 12.0)
+            << i << " and " << k;
+      }
+    }
+  }
 }
 
 }  // namespace
