@@ -15,6 +15,10 @@ lab.word = (text) => /^[A-Za-z][\w.-]*( [\w.-]+)*$/.test(text) &&
 lab.copy = (value) => value === undefined ? undefined : JSON.parse(JSON.stringify(value));
 lab.same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
+/** A key of a scene as people say it. */
+lab.spoken = (key) => ({ theta: "θ", x0: "first guess", dx0: "guess of the rate", ddx0: "guess of the acceleration",
+  p0: "variance of the guess", q: "variance of a step", r: "variance of a measurement", u: "movement" })[key] ?? key.replaceAll("_", " ");
+
 lab.option = (value, text) => {
   const option = document.createElement("option");
   option.value = value;
@@ -201,7 +205,7 @@ lab.Controls = class {
     lab.byId("lab-way-row").hidden = !form.ways;
     let numbers = [];
     if (form.ways) {
-      lab.byId("lab-way-label").textContent = form.way;
+      lab.byId("lab-way-label").textContent = lab.spoken(form.way).replace(/^./, (letter) => letter.toUpperCase());
       ways.replaceChildren(...form.ways.map((way) => lab.option(way.kind)));
       ways.value = values[form.way] ?? form.default_way;
       const way = form.ways.find(({ kind: name }) => name === ways.value);
@@ -215,7 +219,7 @@ lab.Controls = class {
     lab.byId("lab-filter-sliders").replaceChildren(...numbers.map((number) => {
       const value = values[number.key] ?? number.default ?? 1;
       const [low, high, scale] = lab.rangeOf(number, value);
-      return lab.slider({ id: `lab-filter-${number.key}`, label: number.key, meaning: number.meaning,
+      return lab.slider({ id: `lab-filter-${number.key}`, label: lab.spoken(number.key), meaning: number.meaning,
         unit: number.unit, low, high, scale, value, whole: number.whole,
         onInput: (v) => { this.filter = { [kind]: { ...values, ...this.filter[kind], [number.key]: v } }; this.showText(); this.changed(); } });
     }));

@@ -198,11 +198,14 @@ std::string Laboratory::theory(std::string_view filter) const {
 }
 
 std::string run_series(std::string_view scene) {
-  const SeriesResult result = ghtrack::run(read<SeriesScene>(scene));
+  const auto series = read<SeriesScene>(scene);
+  const SeriesResult result = ghtrack::run(series);
   const auto number = [](const std::optional<double>& value) {
     return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
   };
-  nlohmann::json json = {{"measurement_rmse", number(result.measurement_rmse)}};
+  nlohmann::json json = {{"measurement_rmse", number(result.measurement_rmse)},
+                         {"ring", number(ring_of(series))},
+                         {"is_of_readings", is_of_readings(series)}};
   for (const SeriesTrack& track : result.tracks) {
     nlohmann::json one = {{"filter", track.filter},
                           {"gains", track.gains},

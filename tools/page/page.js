@@ -204,6 +204,7 @@
       body.append(row);
     }));
     table.replaceChildren(head, body);
+    table.parentElement.classList.toggle("lab-table", body.rows.length > 20);
     byId("lab-totals").textContent = reports.map(({ total }, which) =>
       `${sideNames()[which] ? sideNames()[which] + ": " : ""}RMSE ${lab.short(value(total, ["rmse"]))} m, ` +
       `GOSPA ${lab.short(total.gospa)} m, ` +

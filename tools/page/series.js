@@ -20,12 +20,15 @@
 
   const points = (track, column) => track.t.map((t, i) => [t, track[column][i] ?? NaN]);
   const valueCurves = () => {
-    const { tracks } = state.result;
-    return [{ colour: state.colours.text, dash: [6, 5], points: points(tracks[0], "truth") },
-      ...tracks.map((track, i) => ({ colour: state.colours.of(i), width: i === chosen ? 3 : 1.5, points: points(track, "x") })),
-      { colour: state.colours.muted, dots: true, points: points(tracks[0], "z") }];
+    const { tracks, ring, is_of_readings: isOfReadings } = state.result;
+    // Not across the whole ring where its ends meet.
+    const path = (track, column) => points(track, column).flatMap((point, i, all) =>
+      ring && i > 0 && Math.abs(point[1] - all[i - 1][1]) > ring / 2 ? [[point[0], NaN], point] : [point]);
+    return [{ colour: state.colours.text, dash: [6, 5], points: path(tracks[0], "truth") },
+      ...tracks.map((track, i) => ({ colour: state.colours.of(i), width: i === chosen ? 3 : 1.5, points: path(track, "x") })),
+      ...isOfReadings ? [] : [{ colour: state.colours.muted, dots: true, points: points(tracks[0], "z") }]];
   };
-  const plots = [
+  const plots = lab.plots = [
     new lab.Plot(byId("lab-values"), state, { xUnit: "", curves: valueCurves }),
     new lab.Plot(byId("lab-residuals"), state, { xUnit: "", curves: () => [{ colour: state.colours.of(chosen), points: points(state.result.tracks[chosen], "residual") }] }),
   ];
@@ -82,7 +85,7 @@
   }
 
   function draw() {
-    byId("lab-values-caption").textContent = `${series.plot.y_label} over ${series.plot.x_label}: truth dashed, measurements as dots, estimates as lines`;
+    byId("lab-values-caption").textContent = `${series.plot.y_label} over ${series.plot.x_label}: truth dashed, ${state.result.is_of_readings ? "" : "measurements as dots, "}estimates as lines`;
     for (const plot of plots) plot.refresh();
   }
 
@@ -105,10 +108,9 @@
     return [Math.min(...z), Math.max(...z)];
   };
 
-  const meanings = { x0: "guess at the start", dx0: "guess of the rate", ddx0: "guess of the acceleration",
-    sigma: "1 sigma that it assumes", noise: "1 sigma", rate: "of the truth, a step", acceleration: "of the truth",
-    start: "of the truth", accuracy: "that it believes the sensor to have", cells: "places that there are",
-    movement: "places a step" };
+  const meanings = { sigma: "1 sigma that it assumes", noise: "1 sigma", rate: "of the truth, a step",
+    acceleration: "of the truth", start: "of the truth", accuracy: "that it believes the sensor to have",
+    cells: "places that there are", movement: "places a step" };
   const whole = new Set(["cells", "movement", "n", "order"]);
 
   /** Whether a number of a filter makes a difference to what it says. */
@@ -127,7 +129,7 @@
         x0: [low - reach, high + reach, "even"], dx0: [-rate, rate, "even"], ddx0: [-rate, rate, "even"],
         noise: [0, Math.max(1, 4 * value), "fine"], rate: [-rate, rate, "even"], acceleration: [-30, 30, "even"],
         start: [low - reach, high + reach, "even"], accuracy: [0.01, 0.99, "even"], movement: [-3, 3, "even"] }[key] ?? [Math.abs(value || 1) / 50, Math.abs(value || 1) * 50, "factors"];
-      return lab.slider({ id: `lab-${prefix}-${key}`, label: key, meaning: meanings[key] ?? "", unit: "",
+      return lab.slider({ id: `lab-${prefix}-${key}`, label: lab.spoken(key), meaning: meanings[key] ?? "", unit: "",
         low: Math.min(range[0], value), high: Math.max(range[1], value), scale: range[2], value, whole: whole.has(key),
         onInput: (v) => { target[key] = v; redraw(); } });
     });
@@ -143,7 +145,8 @@
       return button;
     }));
     const filter = series.filters[chosen];
-    byId("lab-filter-sliders").replaceChildren(...sliders(filter, Object.keys(filter).filter((key) => matters(filter, key)), "filter"));
+    const keys = [...new Set(["x0", "dx0", "ddx0", ...Object.keys(filter)])].filter((key) => matters(filter, key));
+    byId("lab-filter-sliders").replaceChildren(...sliders(filter, keys, "filter"));
     byId("lab-data").hidden = dataKey !== "generate";
     if (dataKey === "generate") {
       byId("lab-data-sliders").replaceChildren(...sliders(series.generate, ["noise", "rate", "acceleration", "start"], "data"));

@@ -138,6 +138,17 @@ class Page(unittest.TestCase):
         self.settle()
         return self.text(name)
 
+    # Property: what is beside a slider are words, whatever the filter.
+    def test_labels_are_words(self):
+        self.browser.run("document.getElementById('lab-reset').click()")
+        kinds = self.browser.run("return [...document.getElementById('lab-kind').options].map((o) => o.value)")
+        for kind in kinds:
+            self.browser.run(CHOOSE, "lab-kind", kind)
+            labels = self.browser.run("return [...document.querySelectorAll('#lab-controls label')].map((e) => e.textContent)")
+            self.assertGreater(len(labels), 5)
+            self.assertEqual([label for label in labels if "_" in label], [], kind)
+        self.browser.run("document.getElementById('lab-reset').click()")
+
     # Property: the same for every kind of filter that a scene may ask for.
     def test_every_filter_says_what_the_program_says(self):
         kinds = self.browser.run("return [...document.getElementById('lab-kind').options].map((o) => o.value)")
@@ -323,6 +334,19 @@ class Series(unittest.TestCase):
                 said = browser.run("return lab.state.result.tracks.flatMap((track) => track.x)")
                 self.assertEqual(said, wanted)
             self.assertEqual(browser.complaints(), [])
+
+    # Property: readings of doors are not drawn as places, and no curve crosses the hallway where its ends meet.
+    def test_a_hallway_is_a_ring_and_its_readings_are_no_places(self):
+        with tempfile.TemporaryDirectory() as folder, Browser() as browser:
+            for scene, dots in (("bayes/dog-in-a-hallway.yaml", 0), ("bayes/dog-by-gaussians.yaml", 1)):
+                browser.open(page_of(scene, folder))
+                browser.driver.implicitly_wait(10)
+                browser.driver.find_element("css selector", "#lab-live:not([hidden])")
+                curves = browser.run("return lab.plots[0].curves().map(({dots, points}) => [dots ?? false, points.map(([, v]) => v)])")
+                self.assertEqual(sum(is_dots for is_dots, _ in curves), dots, scene)
+                if dots == 0:
+                    steps = [abs(a - b) for _, points in curves for a, b in zip(points, points[1:]) if None not in (a, b)]
+                    self.assertLessEqual(max(steps), 5)
 
     # Property: wherever a slider of a series is turned to, the filter can be read; whole numbers stay whole.
     def test_every_slider_says_what_can_be_read(self):
