@@ -344,7 +344,7 @@ void add_filter(CLI::App& app, FilterCommandOptions& options) {
       .add_option("--filter", options.filter,
                   fmt::format("{}; or one as in a scene: '{{gh: {{design: tracking-index}}}}', "
                               "'{{imm: {{filters: {{calm: {{order0: {{g: 0.1}}}}, moving: "
-                              "kalman-cv}}}}}}'",
+                              "{{kalman-cv: {{}}}}}}}}}}'",
                               fmt::join(filter_names(), ", ")))
       ->capture_default_str();
   add_number(command, "--g", options.g, kAny, "position gain");

@@ -307,10 +307,12 @@ bool has_word(std::string_view base, std::string_view list) {
 
 /// Words before "x" that make it something else than a place that was measured.
 constexpr std::string_view kOthers =
-    "v vel velocity speed twist linear geschwindigkeit a acc accel acceleration beschleunigung "
-    "gyro gyr omega w angular rotation rot orientation quaternion quat q covariance force kraft "
-    "mag gravity grav bias size sigma std error err residual offset start end delta d min max "
-    "home";
+    "v vel velocity speed twist linear geschwindigkeit acc accel acceleration beschleunigung "
+    "gyro gyr omega angular rotation rot orientation quaternion quat covariance force kraft "
+    "mag gravity grav bias size sigma std error err residual offset delta";
+
+/// Words that do so unless they are known to be part of a name, as the end of a tail.
+constexpr std::string_view kPerhapsOthers = "a d end home max min q start w";
 
 /// Whether words before "x" make it something else than a place; of "mass a" the letter is a name.
 bool is_other(std::string_view words) {
@@ -319,7 +321,7 @@ bool is_other(std::string_view words) {
   const std::size_t last = words.find_last_of(kJoints);
   const bool is_letter = last != std::string_view::npos && last + 2 == words.size();
   if (is_letter && has_word(words.substr(0, last), kThings)) words = words.substr(0, last);
-  return has_word(words, kOthers);
+  return has_word(words, kOthers) || has_word(words, kPerhapsOthers);
 }
 
 /// The last word of a heading, where it says what "Ort x" and "Latest: Time" are; empty where words
@@ -352,14 +354,16 @@ std::optional<std::size_t> column_telling(std::string_view words,
 
 }  // namespace
 
-std::optional<Belonging> belonging_of(const Heading& heading) {
+std::optional<Belonging> belonging_of(const Heading& heading, NamesOfObjects names) {
   // Several columns of the same thing are no several things.
   constexpr std::string_view kVersions =
       "true truth gt real actual est estimate estimated pred predicted meas measured raw smooth "
       "smoothed filt filtered target setpoint desired reference ref cmd command goal prev previous "
       "last next init initial center centre pos position east north";
   const auto is_none = [&](std::string_view object) {
-    return is_other(object) || has_word(object, kVersions);
+    const bool is_something_else =
+        names == NamesOfObjects::kAny ? has_word(object, kOthers) : is_other(object);
+    return is_something_else || has_word(object, kVersions);
   };
   const std::string& base = heading.base;
   if (is_alias(base) || has_other_unit(heading)) return std::nullopt;

@@ -78,8 +78,15 @@ struct Belonging {
   std::string quantity;  // "x", "y", "lat", "lon", "t", or what it is called
 };
 
+/// Which words may be part of an object's name.
+enum class NamesOfObjects {
+  kUsual,  // none that often say something else of what is measured, such as its start or end
+  kAny,    // these, too: other headings show that objects stand side by side
+};
+
 /// Absent if a heading names no object, or another version of the same one, such as its truth.
-std::optional<Belonging> belonging_of(const Heading& heading);
+std::optional<Belonging> belonging_of(const Heading& heading,
+                                      NamesOfObjects names = NamesOfObjects::kUsual);
 
 /// What is wrong with the columns of a table, without the name of the file.
 struct ColumnError : std::runtime_error {

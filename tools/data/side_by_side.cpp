@@ -22,24 +22,38 @@ bool same_unit(const Heading& a, const Heading& b) {
   return a.unit.has_value() == b.unit.has_value() && (!a.unit || a.unit->name == b.unit->name);
 }
 
-}  // namespace
-
-std::optional<SideBySide> SideBySide::find(const std::vector<Heading>& headings) {
-  std::vector<Belonging> parts;  // without an object where headings name none
+/// What each heading says; without an object where it names none.
+std::vector<Belonging> parts_of(const std::vector<Heading>& headings, NamesOfObjects names) {
+  std::vector<Belonging> parts;
   for (const Heading& heading : headings) {
-    parts.push_back(belonging_of(heading).value_or(Belonging{}));
+    parts.push_back(belonging_of(heading, names).value_or(Belonging{}));
   }
-  SideBySide table;
+  return parts;
+}
+
+/// Those that have both coordinates.
+std::vector<SideBySide::Object> placed_objects(const std::vector<Belonging>& parts) {
+  std::vector<SideBySide::Object> objects;
   for (const Belonging& part : parts) {
     const std::string& object = part.object;
     const bool has_place = (has(parts, object, "x") && has(parts, object, "y")) ||
                            (has(parts, object, "lat") && has(parts, object, "lon"));
     if (object.empty() || !has_place) continue;
-    const bool is_known = std::any_of(table.objects.begin(), table.objects.end(),
-                                      [&](const Object& known) { return known.name == object; });
-    if (!is_known) table.objects.push_back({.name = object, .columns = {}});
+    const bool is_known =
+        std::any_of(objects.begin(), objects.end(),
+                    [&](const SideBySide::Object& known) { return known.name == object; });
+    if (!is_known) objects.push_back({.name = object, .columns = {}});
   }
-  if (table.objects.size() < 2) return std::nullopt;
+  return objects;
+}
+
+}  // namespace
+
+std::optional<SideBySide> SideBySide::find(const std::vector<Heading>& headings) {
+  if (placed_objects(parts_of(headings, NamesOfObjects::kUsual)).size() < 2) return std::nullopt;
+  const std::vector<Belonging> parts = parts_of(headings, NamesOfObjects::kAny);
+  SideBySide table;
+  table.objects = placed_objects(parts);
   const auto is_own = [&](const Belonging& part) {
     return std::any_of(table.objects.begin(), table.objects.end(),
                        [&](const Object& object) { return object.name == part.object; });

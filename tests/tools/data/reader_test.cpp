@@ -215,6 +215,10 @@ TEST(ScanReader, PartsObjectsSideBySide) {
         "frame_idx,nose.x,nose.y,nose.score,tail.x,tail.y,tail.score\n"}) {
     EXPECT_EQ(scans_of(header + frames, {.columns = "", .frame_rate = 2.0}), expected) << header;
   }
+  // Beside two objects, the end of something is a third.
+  EXPECT_EQ(scans_of("t,nose_x,nose_y,tail_base_x,tail_base_y,tail_end_x,tail_end_y\n"
+                     "0,1,2,7,8,3,4\n1,1,2,7,8,3,5\n"),
+            "0/0: 1,2 7,8 3,4; 1/0: 1,2 7,8 3,5; ");
   EXPECT_EQ(scans_of("t,p_x,p_y,q2_x,q2_y\n" + rows, {.columns = "x=q2_x,y=q2_y"}),
             "0/0: 7,8; 0.5/0:; 1/0: 9,9; ");
   // What is written of one object several times, or in two units, is not several objects.
