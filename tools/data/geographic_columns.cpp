@@ -181,8 +181,9 @@ std::optional<double> GeographicColumns::degrees(Table& table, std::size_t colum
 }
 
 std::string GeographicColumns::describe(const Table& table) const {
-  std::string text = fmt::format("in m from {} in {}{}", unit_, name_of_quantity(table, longitude_),
-                                 in_one_cell() ? "" : " and " + name_of_quantity(table, latitude_));
+  // Whatever stands in brackets behind the names, the unit is known.
+  std::string text = fmt::format("in m from {} in {}{}", unit_, name_of_column(table, longitude_),
+                                 in_one_cell() ? "" : " and " + name_of_column(table, latitude_));
   if (origin_) {
     text += fmt::format(" around latitude {:.7g}, longitude {:.7g}", origin_->latitude,
                         origin_->longitude);
