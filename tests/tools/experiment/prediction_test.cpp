@@ -20,8 +20,8 @@ const char* const kSpeedsUp =
 
 /// Something followed by one filter of every kind.
 Comparison compared_sensors(const std::string& sensors, const std::string& motion = kSpeedsUp,
-                            const std::string& tracker = "association: known", int runs = 40) {
-  runs = testing::samples(runs, 8);
+                            const std::string& tracker = "association: known",
+                            int runs = testing::samples(40, 20)) {
   const std::string text = R"(
 name: predicted
 duration: 20
