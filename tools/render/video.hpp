@@ -149,7 +149,7 @@ struct PanelFrame {
   TrackSnapshot tracks;             // the latest at the frame's time
   std::vector<ScanReport> arrived;  // all since the frame before, with the latest
   std::optional<double> gospa;      // [m], running; shown if given
-  std::optional<double> rmse;       // [m] of the positions, running; shown and plotted if given
+  std::optional<double> rmse;       // [m] of the positions, running; shown if given
   std::optional<double> missed =
       {};  // share of the targets' instants without a track; shown from 1 % on
   std::vector<RegimeScore> regimes;  // the same for each kind of object, if there are several
