@@ -535,9 +535,9 @@ void Table::show_first_object() {
 
 /// Whether the object has nothing in the row, not even a time, since it has times of its own.
 bool Table::is_object_absent() const {
+  if (!side_by_side_) return false;
   const auto time = columns_.find(Role::kTime);
-  return side_by_side_ && time && *time >= side_by_side_->shared &&
-         side_by_side_->is_absent(cells_);
+  return time && *time >= side_by_side_->shared && side_by_side_->is_absent(cells_);
 }
 
 /// Goes to the next object of the row, if there is one.
