@@ -184,6 +184,15 @@ bool take_half_of_day(Cursor& cursor, int& hour) {
   return true;
 }
 
+/// The last part of "09:30:15:250", as a fraction of a second.
+std::optional<double> take_milliseconds(Cursor& cursor) {
+  Cursor ahead = cursor;
+  const auto milliseconds = ahead.take(':') ? ahead.digits(3) : std::nullopt;
+  if (!milliseconds || !ahead.at_end()) return std::nullopt;
+  cursor = ahead;
+  return *milliseconds / 1e3;
+}
+
 std::optional<double> take_time(Cursor& cursor) {
   auto hour = cursor.digits(2);
   if (!hour) {
@@ -204,7 +213,8 @@ std::optional<double> take_time(Cursor& cursor) {
   if (colon ? cursor.take(':') : !cursor.at_end()) {
     const auto second = cursor.digits(2);
     if (second) {
-      const auto fraction = cursor.fraction();
+      auto fraction = take_milliseconds(cursor);
+      if (!fraction) fraction = cursor.fraction();
       if (*second > 60 || !fraction) return std::nullopt;
       seconds = *second + *fraction;
     } else if (colon) {

@@ -23,8 +23,8 @@ enum class DateOrder { kDayFirst, kMonthFirst, kYearFirst };
 std::optional<double> parse_date_time(std::string_view text,
                                       DateOrder order = DateOrder::kDayFirst);
 
-/// Seconds since midnight of `h:mm[:ss[.fff]] [AM|PM]`, or of `mm:ss.f`; more than 24 h have passed
-/// on a stopwatch. Absent if the text is anything else.
+/// Seconds since midnight of `h:mm[:ss[.fff]] [AM|PM]`, `hh:mm:ss:fff`, or of `mm:ss.f`; more than
+/// 24 h have passed on a stopwatch. Absent if the text is anything else.
 std::optional<double> parse_time_of_day(std::string_view text);
 
 /// The same of `hhmmss[.fff]`, as loggers of GPS write it; zeros at the front may be missing.

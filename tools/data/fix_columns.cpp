@@ -20,13 +20,16 @@ std::string unit_of(const Table& table, std::size_t column) {
 }  // namespace
 
 FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<GeoPoint> origin)
-    : time_(table, options), degrees_(GeographicColumns::find(table, origin)) {
-  if (!degrees_) {
+    : time_(table, options),
+      degrees_(GeographicColumns::find(table, origin)),
+      polar_(PolarColumns::find(table)) {
+  const bool is_plane = !degrees_ && !polar_;
+  if (is_plane) {
     x_ = table.required(Role::kX);
     y_ = table.required(Role::kY);
   }
   table.throw_missing_columns();
-  if (!degrees_) {
+  if (is_plane) {
     x_scale_ = scale_of(table, x_);
     y_scale_ = scale_of(table, y_);
     zone_ = GridZone::find(table);
@@ -47,11 +50,13 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
 std::optional<Fix> FixColumns::read(Table& table) {
   const auto time = time_.read(table);
   if (!time) return std::nullopt;
-  const Fix fix{.time = *time, .position = degrees_ ? degrees_->read(table) : plane(table)};
+  const Fix fix{.time = *time, .position = position(table)};
   return table.is_rejected() ? std::nullopt : std::optional(fix);
 }
 
-std::optional<Eigen::Vector2d> FixColumns::plane(Table& table) {
+std::optional<Eigen::Vector2d> FixColumns::position(Table& table) {
+  if (degrees_) return degrees_->read(table);
+  if (polar_) return polar_->read(table);
   if (zone_) zone_->check(table);
   const auto x = table.number_or_missing(x_), y = table.number_or_missing(y_);
   if (!x || !y) return std::nullopt;
@@ -76,6 +81,8 @@ std::string FixColumns::describe(const Table& table) const {
   std::string text = time_.describe(table) + ", x and y ";
   if (degrees_) {
     text += degrees_->describe(table);
+  } else if (polar_) {
+    text += polar_->describe(table);
   } else {
     const std::string unit = unit_of(table, x_);
     const bool alike = unit == unit_of(table, y_);

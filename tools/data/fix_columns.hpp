@@ -6,6 +6,7 @@
 
 #include "tools/data/geographic_columns.hpp"
 #include "tools/data/grid_zone.hpp"
+#include "tools/data/polar_columns.hpp"
 #include "tools/data/table.hpp"
 #include "tools/data/time_column.hpp"
 
@@ -18,7 +19,7 @@ struct Fix {
 };
 
 /// The columns of a table that hold time and place: seconds, other units, dates or frames; metres,
-/// other units, or degrees, which become metres around an origin.
+/// other units, distances and bearings, or degrees, which become metres around an origin.
 class FixColumns {
  public:
   /// @param origin  of the local metres; the first point of the file if not given
@@ -41,11 +42,12 @@ class FixColumns {
   const TimeColumn& time() const { return time_; }
 
  private:
-  std::optional<Eigen::Vector2d> plane(Table& table);
+  std::optional<Eigen::Vector2d> position(Table& table);
 
   TimeColumn time_;
   std::optional<GeographicColumns> degrees_;
-  std::size_t x_ = 0, y_ = 0;  // without degrees
+  std::optional<PolarColumns> polar_;
+  std::size_t x_ = 0, y_ = 0;  // without either
   std::optional<GridZone> zone_;
   std::optional<std::size_t> sigma_x_, sigma_y_;
   Scale x_scale_, y_scale_, sigma_x_scale_, sigma_y_scale_;

@@ -17,7 +17,7 @@ struct RoleName {
   Role role;
   std::string_view name;
 };
-constexpr std::array<RoleName, 16> kRoles = {{{Role::kTime, "t"},
+constexpr std::array<RoleName, 19> kRoles = {{{Role::kTime, "t"},
                                               {Role::kDate, "date"},
                                               {Role::kFrame, "frame"},
                                               {Role::kX, "x"},
@@ -26,6 +26,9 @@ constexpr std::array<RoleName, 16> kRoles = {{{Role::kTime, "t"},
                                               {Role::kLatitude, "lat"},
                                               {Role::kLongitude, "lon"},
                                               {Role::kPlace, "place"},
+                                              {Role::kRange, "range"},
+                                              {Role::kBearing, "bearing"},
+                                              {Role::kCompass, "compass"},
                                               {Role::kIdentity, "id"},
                                               {Role::kSensor, "sensor"},
                                               {Role::kClass, "class"},
@@ -39,7 +42,7 @@ struct Alias {
   Role role;
   std::string_view names;  // separated by blanks
 };
-constexpr std::array<Alias, 16> kAliases = {{
+constexpr std::array<Alias, 18> kAliases = {{
     {Role::kTime,
      "t time timestamp time_stamp datetime date_time date/time basedatetime base_date_time utc "
      "time_utc utc_time gps_time gpstime unix_time unixtime epoch posixtime time_position elapsed "
@@ -74,6 +77,8 @@ constexpr std::array<Alias, 16> kAliases = {{
     {Role::kPlace,
      "place position location coordinates coords latlng latlon lat_lng lat_lon lat_long lat/lon "
      "lat,lon geo geometry geom the_geom wkt point koordinaten"},
+    {Role::kRange, "range distance dist rng slant_range ground_range rho r entfernung"},
+    {Role::kBearing, "bearing azimuth azimut az theta angle brg peilung"},
     {Role::kIdentity,
      "id truth_id track_id object_id target_id trackid objectid mmsi icao24 icao hex vehicle_id "
      "name"},
@@ -246,6 +251,12 @@ std::string_view to_string(Role role) {
 
 Heading parse_heading(std::string_view cell) {
   const std::string_view text = unquoted(cell);
+  if (const std::size_t at = text.rfind(" Run #"); at != text.npos) {  // as PASCO writes them
+    Heading heading = parse_heading(text.substr(0, at));
+    heading.text = text;
+    heading.run = text.substr(at + 1);
+    return heading;
+  }
   Heading heading{.text = std::string(text), .base = base_of(text)};
   if (text.empty() || is_alias(heading.base) || split_unit(text, heading)) return heading;
   if (auto unit = unit_named(heading.base); unit && counts_time(*unit)) {
@@ -352,6 +363,28 @@ std::optional<std::size_t> column_telling(std::string_view words,
   return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
+/// Without what other runs of an experiment call their columns.
+std::vector<Heading> of_one_run(std::vector<Heading> headings,
+                                const std::vector<std::pair<Role, std::size_t>>& chosen) {
+  std::string run;
+  for (const auto& [role, column] : chosen) {
+    if (run.empty()) run = headings[column].run;
+  }
+  const bool is_chosen = !run.empty();
+  for (Heading& heading : headings) {
+    if (run.empty()) run = heading.run;
+    if (heading.run.empty() || heading.run == run) continue;
+    if (!is_chosen) {
+      throw ColumnError(
+          fmt::format("there are '{}' and '{}': choose one by a column of its own, "
+                      "such as --columns 't={}'",
+                      run, heading.run, heading.text));
+    }
+    heading.base.clear();
+  }
+  return headings;
+}
+
 }  // namespace
 
 std::optional<Belonging> belonging_of(const Heading& heading, NamesOfObjects names) {
@@ -401,13 +434,13 @@ std::optional<Belonging> belonging_of(const Heading& heading, NamesOfObjects nam
   return named(front, back);
 }
 
-ColumnMap::ColumnMap(const std::vector<Heading>& headings,
+ColumnMap::ColumnMap(const std::vector<Heading>& all_headings,
                      const std::vector<ColumnChoice>& choices) {
   for (const ColumnChoice& choice : choices) {
-    const auto column = column_named(choice.column, headings);
+    const auto column = column_named(choice.column, all_headings);
     if (!column) {
       std::vector<std::string_view> names;
-      for (const Heading& heading : headings) names.push_back(heading.text);
+      for (const Heading& heading : all_headings) names.push_back(heading.text);
       throw ColumnError(fmt::format("--columns {}: there is no column {}{}", to_string(choice.role),
                                     in_quotes(choice.column),
                                     hint(choice.column, "columns", names)));
@@ -415,13 +448,15 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
     columns_.emplace_back(choice.role, *column);
   }
   chosen_ = columns_.size();
+  const std::vector<Heading> headings = of_one_run(all_headings, columns_);
   for (const Alias& alias : kAliases) {
     if (has(alias.role)) continue;
     any_word(alias.names, [&](std::string_view name) {
       for (std::size_t i = 0; i < headings.size(); ++i) {
         if (headings[i].base != name) continue;
         for (std::size_t j = i + 1; j < headings.size(); ++j) {
-          if (headings[j].text != headings[i].text) continue;
+          const bool are_told_apart = has_role(i) || has_role(j);
+          if (headings[j].text != headings[i].text || are_told_apart) continue;
           throw ColumnError(fmt::format("column {} is there twice", in_quotes(headings[i].text)));
         }
         columns_.emplace_back(alias.role, i);
@@ -439,6 +474,11 @@ ColumnMap::ColumnMap(const std::vector<Heading>& headings,
     const Role alone = has_u ? Role::kX : Role::kY;
     std::erase_if(columns_, [alone](const auto& column) { return column.first == alone; });
   }
+  // Of a distance and a bearing, one alone is no place.
+  std::erase_if(columns_, [&, is_place = has_polar()](const auto& column) {
+    const bool is_polar = column.first == Role::kRange || column.first == Role::kBearing;
+    return is_polar && !is_place && !is_chosen(column.first);
+  });
   if (!has(Role::kTime)) {
     std::vector<std::size_t> counting;  // of "secs" and "nsecs" neither is the time
     for (std::size_t i = 0; i < headings.size(); ++i) {

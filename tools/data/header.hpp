@@ -21,6 +21,9 @@ enum class Role {
   kLatitude,   // [°]
   kLongitude,  // [°]
   kPlace,      // latitude and longitude in one cell
+  kRange,      // distance from a site
+  kBearing,    // from the same, counter-clockwise from x
+  kCompass,    // the same, clockwise from y
   kIdentity,
   kSensor,
   kClass,
@@ -68,6 +71,7 @@ struct Heading {
   std::string base;                         // without its unit, in lower case, words joined by '_'
   std::optional<Unit> unit = std::nullopt;  // "(mm)", "[ms]", "/ s", "in cm", "_us"
   std::string unread = {};                  // what stands in brackets, if it is no unit
+  std::string run = {};                     // "Run #2" behind them
 };
 
 Heading parse_heading(std::string_view cell);
@@ -116,6 +120,9 @@ class ColumnMap {
   bool has(Role role) const { return find(role).has_value(); }
   bool has_plane() const { return has(Role::kX) && has(Role::kY); }
   bool has_degrees() const { return has(Role::kLatitude) && has(Role::kLongitude); }
+  bool has_polar() const {
+    return has(Role::kRange) && (has(Role::kBearing) || has(Role::kCompass));
+  }
 
   /// Whether the column means something.
   bool has_role(std::size_t column) const;

@@ -93,7 +93,8 @@ Telling telling_of(const std::vector<Heading>& headings, const std::vector<Colum
     const auto objects = SideBySide::find(headings);
     const bool has_times = objects && ColumnMap(objects->headings, {}).has(Role::kTime);
     return {.time = map.has(Role::kTime) || map.has(Role::kFrame) || has_times,
-            .place = map.has_plane() || map.has_degrees() || map.has(Role::kZ) || objects};
+            .place = map.has_plane() || map.has_degrees() || map.has_polar() || map.has(Role::kZ) ||
+                     objects};
   } catch (const ColumnError&) {  // a column that is there twice: not for this to say
     return {};
   }
@@ -239,12 +240,12 @@ void Table::name_index() {
 void Table::part_objects(std::vector<ColumnChoice>& choices) {
   for (const ColumnChoice& choice : choices) {
     for (const Role role : {Role::kX, Role::kY, Role::kZ, Role::kLatitude, Role::kLongitude,
-                            Role::kPlace, Role::kIdentity}) {
+                            Role::kPlace, Role::kRange, Role::kIdentity}) {
       if (choice.role == role) return;
     }
   }
   const ColumnMap map(headings_, choices);
-  if (map.has_plane() || map.has_degrees() || map.has(Role::kZ)) return;
+  if (map.has_plane() || map.has_degrees() || map.has_polar() || map.has(Role::kZ)) return;
   std::optional<SideBySide> objects = SideBySide::find(headings_);
   if (!objects) return;
   for (ColumnChoice& choice : choices) {  // a number counts the columns of the file
@@ -386,7 +387,10 @@ bool Table::take_units_row() {
   if (first_row_ >= sample_.size()) return false;
   std::vector<std::string_view> units;
   split_cells(sample_[first_row_].text, dialect_.separator, units, owned_);
-  if (units.size() != headings_.size()) return false;
+  const auto is_some_value = [&](std::string_view cell) { return is_value(cell, dialect_); };
+  if (units.size() != headings_.size() || std::any_of(units.begin(), units.end(), is_some_value)) {
+    return false;
+  }
   std::vector<Heading> with_units = headings_;
   const ColumnMap map(headings_, {});
   const auto is_place_or_time = [&](std::size_t column) {
@@ -396,7 +400,6 @@ bool Table::take_units_row() {
   bool any = false;
   for (std::size_t i = 0; i < units.size(); ++i) {
     if (is_missing(units[i])) continue;
-    if (is_value(units[i], dialect_)) return false;
     const bool bracketed = units[i].front() == '(' || units[i].front() == '[';
     const Heading heading =
         parse_heading("x " + (bracketed ? std::string(units[i]) : fmt::format("({})", units[i])));
@@ -454,24 +457,26 @@ std::string_view Table::first_cell(std::size_t column) const {
   return column < first_cells_.size() ? std::string_view(first_cells_[column]) : std::string_view{};
 }
 
-bool Table::begins_with_numbers(std::size_t column) {
+bool Table::any_first(std::size_t column, const std::function<bool(std::string_view)>& is_so) {
   for (std::size_t row = first_row_; row < sample_.size(); ++row) {
     split_row(sample_[row].text);
     if (cells_.size() != width_) continue;
     show_first_object();
-    if (cells_[column].find_first_not_of("+-.0123456789") != std::string_view::npos) return false;
+    if (is_so(cells_[column])) return true;
   }
-  return true;
+  return false;
+}
+
+bool Table::begins_with_numbers(std::size_t column) {
+  return !any_first(column, [](std::string_view cell) {
+    return cell.find_first_not_of("+-.0123456789") != std::string_view::npos;
+  });
 }
 
 bool Table::shows(std::size_t column, char character) {
-  for (std::size_t row = first_row_; row < sample_.size(); ++row) {
-    split_row(sample_[row].text);
-    if (cells_.size() != width_) continue;
-    show_first_object();
-    if (cells_[column].find(character) != std::string_view::npos) return true;
-  }
-  return false;
+  return any_first(column, [&](std::string_view cell) {
+    return cell.find(character) != std::string_view::npos;
+  });
 }
 
 std::string_view Table::first_value(std::size_t column) const {

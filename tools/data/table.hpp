@@ -64,6 +64,9 @@ class Table {
   /// The first row of data as text, empty if there is none.
   std::string_view first_cell(std::size_t column) const;
 
+  /// Whether something is so of one of the cells of a column in the first rows.
+  bool any_first(std::size_t column, const std::function<bool(std::string_view)>& is_so);
+
   /// Whether the first rows have nothing but digits, signs and points in a column.
   bool begins_with_numbers(std::size_t column);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "tools/record/errors.hpp"
 
@@ -12,9 +13,28 @@ namespace ghtrack {
 
 namespace {
 
+/// Whether a heading is one of these words, or ends with one of them, as "header_stamp_secs".
+bool ends_with_one(const std::string& base, std::initializer_list<std::string_view> words) {
+  const std::string_view last = std::string_view(base).substr(base.find_last_of("_/:") + 1);
+  return std::find(words.begin(), words.end(), last) != words.end();
+}
+
+/// The column after one of whole seconds that has the rest, as ROS writes its stamps.
+std::optional<std::size_t> nanoseconds_beside(const Table& table, std::size_t seconds) {
+  if (seconds + 1 >= table.headings().size()) return std::nullopt;
+  const bool is_stamp =
+      ends_with_one(table.headings()[seconds].base, {"s", "sec", "secs", "seconds"}) &&
+      ends_with_one(table.headings()[seconds + 1].base,
+                    {"nsec", "nsecs", "nanosec", "nanoseconds"});
+  return is_stamp ? std::optional(seconds + 1) : std::nullopt;
+}
+
 /// The column of the times; one of dates alone will do.
 std::optional<std::size_t> time_column(const Table& table) {
   if (const auto time = table.columns().find(Role::kTime)) return time;
+  for (std::size_t i = 0; i < table.headings().size(); ++i) {
+    if (nanoseconds_beside(table, i)) return i;
+  }
   const auto date = table.columns().find(Role::kDate);
   const char point = table.dialect().point;
   return date && is_date_or_day(table.first_value(*date), point) ? date : std::nullopt;
@@ -57,6 +77,7 @@ TimeColumn::TimeColumn(Table& table, const ReadOptions& options) {
                             .has_date = is_beside_date(table, column_),
                             .point = table.dialect().point},
                  table.first_value(column_));
+  if (clock_->meaning().starts_with("s")) nanoseconds_ = nanoseconds_beside(table, column_);
   const auto date = columns.find(Role::kDate);
   if (!date || *date == column_) return;
   if (!clock_->is_time_of_day()) {
@@ -75,6 +96,11 @@ std::optional<double> TimeColumn::read(Table& table) {
   if (!time) {
     table.reject_cell(column_, std::string(clock_->expectation()));
     return std::nullopt;
+  }
+  if (nanoseconds_) {
+    const auto nanoseconds = table.number(*nanoseconds_);
+    if (!nanoseconds) table.reject_cell(*nanoseconds_, "a finite number");
+    return *time + nanoseconds.value_or(0.0) / 1e9;
   }
   if (!date_) return clock_->is_time_of_day() ? of_days(*time, table.line()) : *time;
   const auto day = parse_date(table.cell(*date_), order_);
@@ -96,6 +122,7 @@ double TimeColumn::of_days(double time, std::int64_t line) {
 std::string TimeColumn::describe(const Table& table) const {
   std::string text =
       fmt::format("t ({}) from {}", clock_->meaning(), name_of_quantity(table, column_));
+  if (nanoseconds_) text += " and " + name_of_column(table, *nanoseconds_);
   if (date_) text += " on " + name_of_column(table, *date_);
   if (unused_date_) text += fmt::format(" ({} is not used)", name_of_column(table, *unused_date_));
   return text;

@@ -39,9 +39,10 @@ class TimeColumn {
   std::optional<std::size_t> date_;         // of a time of day
   std::optional<std::size_t> unused_date_;  // beside seconds from anywhere
   DateOrder order_ = DateOrder::kDayFirst;
-  int midnights_ = 0;      // passed so far
-  double of_day_ = 0.0;    // of the row before [s]
-  std::int64_t line_ = 0;  // of the same
+  std::optional<std::size_t> nanoseconds_;  // beside whole seconds
+  int midnights_ = 0;                       // passed so far
+  double of_day_ = 0.0;                     // of the row before [s]
+  std::int64_t line_ = 0;                   // of the same
   std::optional<Clock> clock_;
 };
 

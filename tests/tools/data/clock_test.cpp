@@ -39,6 +39,7 @@ TEST(DateTime, MeansTheSameInEveryDialect) {
   EXPECT_EQ(parse_date_time("6/11/2024 7:30:15 AM", DateOrder::kMonthFirst), kSeconds);
   EXPECT_EQ(parse_date_time("11/06/2024 7:30:15 PM"), kSeconds + 12 * 3600.0);
   EXPECT_EQ(parse_date_time("2024-06-11T07:30:15.25Z"), kSeconds + 0.25);
+  EXPECT_EQ(parse_date_time("2024-06-11 07:30:15:250"), kSeconds + 0.25);
   EXPECT_EQ(parse_date_time("1970-01-01"), 0.0);
   EXPECT_EQ(parse_date_time("1969-12-31T23:59:59Z"), -1.0);
   EXPECT_EQ(

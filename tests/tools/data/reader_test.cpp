@@ -451,6 +451,57 @@ TEST(ScanReader, TurnsDegreesIntoMetres) {
   EXPECT_THAT(reader.summary().understood, HasSubstr("2 rows at 2 instants over 1 s (commas)"));
 }
 
+// Derived: 2 km at 90° from x are (0, 2000); at 90° of a compass, (2000, 0). Coordinates in a plane
+// come first; a negative distance is none.
+TEST(ScanReader, TurnsDistancesAndBearingsIntoMetres) {
+  EXPECT_EQ(scans_of("t,range (km),azimuth (deg)\n0,2,90\n1,1,180\n2,1,-90\n3,,\n4,1,360\n"),
+            "0/0: 0,2000; 1/0: -1000,0; 2/0: 0,-1000; 3/0:; 4/0: 1000,0; ");
+  EXPECT_EQ(scans_of("t,distance,bearing_rad\n0,2,0\n1,2,3.141592653589793\n"),
+            "0/0: 2,0; 1/0: -2,0; ");
+  EXPECT_EQ(scans_of("t,r,theta\n0,3,0\n1,3,270\n"), "0/0: 3,0; 1/0: 0,-3; ");
+  EXPECT_EQ(scans_of("t,r,brg\n0,3,90\n1,3,0\n", {.columns = "compass=brg"}),
+            "0/0: 3,0; 1/0: 0,3; ");
+  EXPECT_EQ(scans_of("t,r,brg\n0,3,0\n", {.columns = "compass=brg[deg]"}), "0/0: 0,3; ");
+  EXPECT_EQ(scans_of("t,range,bearing,x,y\n0,3,100,1,2\n"), "0/0: 1,2; ");
+  const auto read = [](const auto& path) { ScanReader reader(path.string()); };
+  EXPECT_EQ(message_of("t,range,bearing\n0,3,1\n1,3,2\n", read),
+            "in.csv:1: error: are bearings in 'bearing' degrees or radians? --columns "
+            "'bearing=bearing[deg]' or 'bearing=bearing[rad]' says it");
+  EXPECT_EQ(message_of("t,range,azimuth (deg)\n0,-3,1\n", read),
+            "in.csv:2:3: error: '-3' in column 'range' is not a distance");
+  const ScratchFolder folder;
+  ScanReader reader(folder.write("in.csv", "t,range (km),azimuth (deg)\n0,2,90\n").string());
+  EXPECT_THAT(reader.summary().understood,
+              HasSubstr("x and y in m from distances in 'range (km)' and bearings in "
+                        "'azimuth (deg)', degrees counter-clockwise from x"));
+}
+
+// Derived: ROS keeps the whole seconds of a stamp and the rest in two columns.
+TEST(ScanReader, AddsNanosecondsToSeconds) {
+  for (const char* header :
+       {"sec,nanosec,x,y", "secs,nsecs,x,y", "header.stamp.secs,header.stamp.nsecs,x,y",
+        "stamp_sec,stamp_nanosec,x,y"}) {
+    EXPECT_EQ(scans_of(std::string(header) + "\n5,250000000,1,2\n5,500000000,3,4\n6,0,5,6\n"),
+              "5.25/0: 1,2; 5.5/0: 3,4; 6/0: 5,6; ")
+        << header;
+  }
+}
+
+// Derived: runs of one experiment are told apart by the user.
+TEST(ScanReader, ReadsOneOfSeveralRuns) {
+  EXPECT_EQ(scans_of("Time (ms) Run #1,x (cm) Run #1,y (cm) Run #1\n500,100,200\n"),
+            "0.5/0: 1,2; ");
+  const auto read = [](const auto& path) { ScanReader reader(path.string()); };
+  const std::string runs =
+      "Time (s) Run #1,x (m) Run #1,y (m) Run #1,Time (s) Run #2,x (m) Run #2,y (m) Run #2\n"
+      "0,1,2,7,3,4\n";
+  EXPECT_EQ(message_of(runs, read),
+            "in.csv:1: error: there are 'Run #1' and 'Run #2': choose one by a column of its own, "
+            "such as --columns 't=Time (s) Run #2'");
+  EXPECT_EQ(scans_of(runs, {.columns = "t=Time (s) Run #2"}), "7/0: 3,4; ");
+  EXPECT_EQ(scans_of("t,x,y,x\n0,1,2,3\n", {.columns = "x=4"}), "0/0: 3,2; ");
+}
+
 // Derived: one of a thing is said in the singular.
 TEST(ScanReader, SaysWhatItUnderstood) {
   const ScratchFolder folder;
