@@ -53,6 +53,20 @@ double offset_of(const Axis& axis) {
   return std::floor(axis.low / power) * power;
 }
 
+/// Round numbers, about so many, and two at least: one alone says nothing of the scale.
+void take_ticks(Axis& axis, double count) {
+  const double rough = axis.span() / count;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double unit = rough / power;
+  axis.step = power * (unit < 1.5 ? 1.0 : unit < 3.5 ? 2.0 : unit < 7.5 ? 5.0 : 10.0);
+  const auto first = static_cast<long>(std::ceil(axis.low / axis.step - 1e-9));
+  const auto last = static_cast<long>(std::floor(axis.high / axis.step + 1e-9));
+  if (last <= first) return take_ticks(axis, 1.5 * count);
+  for (long i = first; i <= last && i - first < 100; ++i) {
+    axis.ticks.push_back(static_cast<double>(i) * axis.step);
+  }
+}
+
 }  // namespace
 
 Axis axis_over(double low, double high, double ticks, bool tight) {
@@ -66,15 +80,7 @@ Axis axis_over(double low, double high, double ticks, bool tight) {
   const double margin = tight ? 0.0 : 0.05 * (high - low);
   axis.low = low - margin;
   axis.high = high + margin;
-  const double rough = axis.span() / std::max(1.0, ticks);
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  const double unit = rough / power;
-  axis.step = power * (unit < 1.5 ? 1.0 : unit < 3.5 ? 2.0 : unit < 7.5 ? 5.0 : 10.0);
-  const auto first = static_cast<long>(std::ceil(axis.low / axis.step - 1e-9));
-  const auto last = static_cast<long>(std::floor(axis.high / axis.step + 1e-9));
-  for (long i = first; i <= last && i - first < 100; ++i) {
-    axis.ticks.push_back(static_cast<double>(i) * axis.step);
-  }
+  take_ticks(axis, std::max(2.0, ticks));
   axis.offset = offset_of(axis);
   return axis;
 }

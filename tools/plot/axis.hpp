@@ -24,7 +24,7 @@ struct Axis {
   std::string title(const std::string& name) const;
 };
 
-/// An axis over [low, high], a little wider, with about so many ticks.
+/// An axis over [low, high], a little wider, with about so many ticks, and two at least.
 Axis axis_over(double low, double high, double ticks, bool tight);
 
 /// A logarithmic axis over [low, high], both above zero, with ticks at powers of ten, and at 2 and

@@ -339,7 +339,10 @@ void draw_levels(Canvas& canvas, const Panel& panel, const Frame& frame, const P
     const double small = font_size * 0.75;
     const double width = canvas.text_width(level.name, small);
     const double right = plot.x + plot.width - font_size * 0.3;
-    const double below = level.y < 0.0 ? font_size : 0.0;  // of the line, away from the other one
+    const bool has_room_below = at + font_size < plot.y + plot.height;
+    const bool has_room_above = at - font_size > plot.y;
+    const bool is_below = level.y < 0.0 ? has_room_below : !has_room_above;  // away from the other
+    const double below = is_below ? font_size : 0.0;
     canvas.fill(right - width - 1.0, at + below - font_size * 0.95, width + 2.0, font_size * 0.85,
                 palette.ground.with_alpha(0.8));
     canvas.text(right, at + below - font_size * 0.25, level.name, small, palette.ink,

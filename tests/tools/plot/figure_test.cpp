@@ -44,6 +44,18 @@ TEST(Axis, HasRoundTicks) {
   EXPECT_EQ(axis_over(-100.0, 100.0, 5.0, true).label(-50.0), "−50");
 }
 
+// Property: the smallest axis has two ticks, so that its scale can be read, and few more.
+TEST(Axis, TellsItsScaleHoweverSmall) {
+  for (int i = 0; i < 1000; ++i) {
+    const double low = -3.0 + 0.017 * i, span = 0.3 * std::pow(1.013, i);
+    for (const bool is_tight : {false, true}) {
+      const Axis axis = axis_over(low, low + span, 0.5, is_tight);
+      EXPECT_GE(axis.ticks.size(), 2U) << low << " " << span;
+      EXPECT_LE(axis.ticks.size(), 5U) << low << " " << span;
+    }
+  }
+}
+
 // Property: the numbers of an axis that is far away are short and different, and its title says
 // what they lack.
 TEST(Axis, IsReadableFarAway) {
