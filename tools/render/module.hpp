@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "tools/render/footage.hpp"
-#include "tools/render/plot.hpp"
 #include "tools/render/video.hpp"
 
 namespace ghtrack::render {
@@ -28,7 +27,6 @@ class RenderModule {
   virtual std::unique_ptr<VideoSink> open_video(const VideoOptions& options,
                                                 const SceneDrawing& scene) = 0;
   virtual std::unique_ptr<FootageSink> open_footage(const FootageOptions& options) = 0;
-  virtual void write_plot(const std::filesystem::path& path, const Plot& plot) = 0;
 };
 
 /// Name and type of the module's only symbol.

@@ -1,6 +1,5 @@
 #include "tools/render/footage_file.hpp"
 #include "tools/render/module.hpp"
-#include "tools/render/plot_picture.hpp"
 #include "tools/render/video_file.hpp"
 
 namespace ghtrack::render {
@@ -16,10 +15,6 @@ class OpenCvModule : public RenderModule {
 
   std::unique_ptr<FootageSink> open_footage(const FootageOptions& options) override {
     return open_footage_file(options);
-  }
-
-  void write_plot(const std::filesystem::path& path, const Plot& plot) override {
-    write_plot_picture(path, plot);
   }
 };
 

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "tests/tools/render/synthetic_scene.hpp"
-#include "tools/render/plot_picture.hpp"
 
 namespace ghtrack::render {
 namespace {
@@ -380,22 +379,6 @@ TEST(Layout, GivesEveryComparedFilterAPanelOfItsOwn) {
         EXPECT_EQ(overlap(panel, layout.panels[static_cast<std::size_t>(k)]), 0.0);
     }
   }
-}
-
-// Property: a plot shows its curves in their colours and survives values that are not finite.
-TEST(Plot, ShowsItsCurvesAndLeavesGaps) {
-  Plot plot;
-  plot.title = "weight";
-  plot.series = {{"truth", PlotSeries::Style::kTruth, {0, 1, 2, 3}, {1, 2, kNan, 4}, 0},
-                 {"estimate", PlotSeries::Style::kEstimate, {0, 1, 2, 3}, {1, 3, 2, 5}, 0}};
-  const cv::Mat image = draw_plot(plot);
-  cv::Mat blue;
-  const cv::Scalar first_color(178, 114, 0);
-  cv::inRange(image, first_color, first_color, blue);
-  EXPECT_GT(cv::countNonZero(blue), 500);
-  plot.series[0].y = {kNan, kNan, kNan, kNan};
-  plot.series[1].y = {1e300, -1e300, 7.0, std::numeric_limits<double>::infinity()};
-  EXPECT_EQ(draw_plot(plot).rows, plot.height);
 }
 
 }  // namespace

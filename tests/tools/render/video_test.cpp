@@ -13,7 +13,6 @@
 #include <limits>
 
 #include "tests/tools/render/synthetic_scene.hpp"
-#include "tools/render/plot.hpp"
 
 namespace ghtrack::render {
 namespace {
@@ -258,16 +257,6 @@ TEST(FrameClock, CountsFramesAndKnowsTheirTimes) {
   EXPECT_EQ(frame_count(options, 20.0), 1u);
   options.to = 4.0;
   EXPECT_THROW(frame_count(options, 20.0), RequestError);
-}
-
-// Property: a plot is a PNG file; series of unequal lengths are refused.
-TEST_F(Video, HasPlotsBesideIt) {
-  Plot plot;
-  plot.series = {{"z", PlotSeries::Style::kMeasurement, {0, 1, 2}, {1, 2, 4}, 0}};
-  write_plot(folder_ / "plot.png", plot);
-  EXPECT_EQ(bytes(folder_ / "plot.png").substr(1, 3), "PNG");
-  plot.series[0].x.pop_back();
-  EXPECT_THROW(write_plot(folder_ / "plot.png", plot), RequestError);
 }
 
 }  // namespace
