@@ -35,8 +35,8 @@
   const controls = lab.controls = new lab.Controls(scene, () => { isStale = true; redraw(); });
   const views = lab.views = [0, 1].map((i) => new lab.WorldView(byId(`lab-view-${i}`), state, i));
   const plots = [
-    new lab.Plot(byId("lab-error"), state, { floor: 0, curves: () => lab.errorCurves(state), empty: "no confirmed track" }),
-    new lab.Plot(byId("lab-residual"), state, { curves: () => lab.residualCurves(state), bands: () => lab.residualBand(state), empty: "no track" }),
+    new lab.Plot(byId("lab-error"), state, { floor: 0, around: true, curves: () => lab.errorCurves(state), empty: "no confirmed track" }),
+    new lab.Plot(byId("lab-residual"), state, { around: true, curves: () => lab.residualCurves(state), bands: () => lab.residualBand(state), empty: "no track" }),
     new lab.Plot(byId("lab-existence"), state, { unit: "1", floor: 0, curves: () => lab.existenceCurves(state), empty: "no track" }),
   ];
   let isStale = true;      // the result is not that of the setting

@@ -6,9 +6,10 @@ lab.Plot = class {
    * @param curves  () => [{ colour, width, dash, dots, points: [[t, value]…] }], breaks where a value is NaN
    * @param bands   () => [{ colour, points: [[t, low, high]…] }]
    * @param empty   what is said where there is nothing to be drawn
+   * @param around  values are around zero: a few far ones do not set the scale, but are said
    */
-  constructor(canvas, state, { unit, floor, xUnit, curves, bands, empty }) {
-    Object.assign(this, { canvas, state, unit, floor, xUnit: xUnit ?? " s", curves, bands: bands ?? (() => []), empty: empty ?? "" });
+  constructor(canvas, state, { unit, floor, xUnit, curves, bands, empty, around }) {
+    Object.assign(this, { canvas, state, unit, floor, xUnit: xUnit ?? " s", curves, bands: bands ?? (() => []), empty: empty ?? "", around });
     this.pen = canvas.getContext("2d");
     this.still = document.createElement("canvas");
     const seek = (event) => {
@@ -40,6 +41,8 @@ lab.Plot = class {
       }
     }
     const isEmpty = !(high > -Infinity);
+    const far = this.around ? lab.farValues(curves) : null;
+    if (far) [low, high] = [Math.max(low, -far.limit), Math.min(high, far.limit)];
     if (isEmpty) [low, high] = [0, 1];
     // A size begins at nothing, unless that leaves what varies a strip at the top.
     const isSize = this.floor === undefined && low >= 0 && low < high - low && bands.length === 0;
@@ -106,6 +109,14 @@ lab.Plot = class {
       pen.stroke();
     }
     pen.restore();
+    if (far) {
+      const said = `${far.count} beyond, up to ${lab.short(far.most)}`;
+      pen.fillStyle = colours.page;
+      pen.fillRect(this.right - 8 - pen.measureText(said).width, this.top, pen.measureText(said).width + 8, 17);
+      pen.fillStyle = colours.muted;
+      pen.textAlign = "right";
+      pen.fillText(said, this.right - 4, this.top + 12);
+    }
     if (isEmpty) {
       pen.fillStyle = colours.muted;
       pen.textAlign = "center";
@@ -125,6 +136,16 @@ lab.Plot = class {
     pen.lineWidth = 1.5;
     pen.beginPath(); pen.moveTo(x, this.top); pen.lineTo(x, this.bottom); pen.stroke();
   }
+};
+
+/** Values that are few and so far from zero that the others could not be seen beside them, if any. */
+lab.farValues = (curves) => {
+  const sizes = curves.flatMap(({ points }) => points.map(([, value]) => Math.abs(value)))
+    .filter(Number.isFinite).sort((a, b) => a - b);
+  const usual = sizes[Math.floor(0.98 * sizes.length)] ?? 0;
+  const most = sizes.at(-1), limit = 2 * usual;
+  if (!(usual > 0 && most > 2 * limit)) return null;
+  return { limit, most, count: sizes.filter((size) => size > limit).length };
 };
 
 /** Error of every object's track: distance of estimate and truth at each scan. */

@@ -30,7 +30,7 @@
   };
   const plots = lab.plots = [
     new lab.Plot(byId("lab-values"), state, { xUnit: "", curves: valueCurves }),
-    new lab.Plot(byId("lab-residuals"), state, { xUnit: "", curves: () => [{ colour: state.colours.of(chosen), points: points(state.result.tracks[chosen], "residual") }] }),
+    new lab.Plot(byId("lab-residuals"), state, { xUnit: "", around: true, curves: () => [{ colour: state.colours.of(chosen), points: points(state.result.tracks[chosen], "residual") }] }),
   ];
 
   function redraw() {

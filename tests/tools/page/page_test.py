@@ -289,6 +289,17 @@ class Page(unittest.TestCase):
         self.settle()
         self.assertLess(sum(dark), sum(light))
 
+    # Property: at most one value in fifty may be left out of a plot, and only if it is far from the others.
+    def test_few_far_values_do_not_set_the_scale(self):
+        far = """
+const points = Array.from({length: 200}, (_, i) => [i, Math.sin(i)]).concat(arguments[0].map((value) => [200, value]));
+return lab.farValues([{points}]);"""
+        self.assertIsNone(self.browser.run(far, [1.5, None]))
+        self.assertEqual(self.browser.run(far, [-40, 70])["count"], 2)
+        self.assertEqual(self.browser.run(far, [-40, 70])["most"], 70)
+        self.assertLess(self.browser.run(far, [-40, 70])["limit"], 2.1)
+        self.assertIsNone(self.browser.run(far, [5.0] * 100))
+
     # Property: the page of the flagship is small.
     def test_its_size(self):
         self.assertLess(page_of("three_regimes.yaml", self.folder).stat().st_size, 3_000_000)
