@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kSlipDecay = 0.02;  // time in which the last slip of a rolling body dies [s]
 constexpr double kCreep = 1e-3;      // slower slip in a heap is sticking that has not settled [m/s]
-constexpr double kAtRest = 1e-7;     // slower than this, and held, a body rests [m/s]
-constexpr double kTurning = 1e-6;    // and does not turn if its rim is slower than this [m/s]
 constexpr double kHeld = 1e-6;       // a smaller acceleration is a rounding error [m/s²]
 
 }  // namespace
@@ -332,13 +330,10 @@ void note_leaning(const Crowd& crowd, Instant& now, Heap heap) {
   std::vector<FlightState> still = states_of(crowd, now, heap);
   std::vector<bool> is_slow(still.size());
   for (std::size_t i = 0; i < still.size(); ++i) {
-    is_slow[i] = still[i].velocity.norm() <= kAtRest;
+    is_slow[i] = is_nearly_at_rest(still[i]);
     if (!is_slow[i]) continue;
-    still[i].velocity.setZero();
-    // Where nothing is rough it may spin on.
-    if (std::abs(still[i].spin) * crowd.round(heap.bodies[i]).radius <= kTurning) {
-      still[i].spin = heap.turning[i] = 0.0;
-    }
+    still[i] = standing(still[i], crowd.round(heap.bodies[i]));
+    if (still[i].spin == 0.0) heap.turning[i] = 0.0;
   }
   const bool any_is_slow = std::find(is_slow.begin(), is_slow.end(), true) != is_slow.end();
   const std::vector<FlightRate> standing =

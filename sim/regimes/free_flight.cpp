@@ -14,6 +14,7 @@ constexpr double kRestHeight = 5e-6;  // lower bounces are not worth it, nor und
 constexpr double kSlipDecay = 0.02;   // time in which the last slip of a rolling body dies out [s]
 constexpr double kLeaving = 1e-9;     // faster than this a body leaves or hits its support [m/s]
 constexpr double kAtRest = 1e-7;      // slower than this, and held, it rests [m/s]
+constexpr double kTurning = 1e-6;     // and does not turn if its rim is slower than this [m/s]
 constexpr double kSameNormal = 1e-9;  // 1 − cosine between normals that are one
 
 /// Speed of the rim over the surface at the point of contact.
@@ -237,12 +238,16 @@ bool settle_on_supports(FlightState& state, const RoundBody& body,
 
 bool is_nearly_at_rest(const FlightState& state) { return state.velocity.norm() < kAtRest; }
 
+FlightState standing(FlightState state, const RoundBody& body) {
+  state.velocity.setZero();
+  // Where nothing is rough it may spin on.
+  if (std::abs(state.spin) * body.radius < kTurning) state.spin = 0.0;
+  return state;
+}
+
 void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
           const std::vector<Surface>& surfaces) {
-  FlightState still = state;
-  still.velocity.setZero();
-  // Where nothing is rough it may spin on.
-  if (std::abs(state.spin) * body.radius < kAtRest) still.spin = 0.0;
+  const FlightState still = standing(state, body);
   const FlightRate rate =
       supported_rate(still, free, body, surfaces, senses_of(still, body, surfaces));
   const double most = 1e-9;  // [m/s²]

@@ -83,6 +83,7 @@ bool settle_on_supports(FlightState& state, const RoundBody& body,
 /// Whether a supported body hardly moves; `rest` then brings it to a stand if the forces let it,
 /// though it may go on to spin.
 bool is_nearly_at_rest(const FlightState& state);
+FlightState standing(FlightState state, const RoundBody& body);
 void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
           const std::vector<Surface>& surfaces);
 

@@ -145,6 +145,23 @@ TEST(ThrownBall, ComesToRest) {
   EXPECT_EQ(state.acceleration.y(), 0.0);
 }
 
+// Property: a rough ball that stands while its rim still creeps by half a micrometre a second
+// stands for good: the last slip, which takes 20 ms to die out, does not push it.
+TEST(ThrownBall, StandsThoughItsRimStillCreeps) {
+  for (const double rim : {-5e-7, 2e-7, 5e-7}) {
+    ThrownBall ball = plain_ball(Vec2(0.0, 0.1), Vec2::Zero());
+    ball.radius = 0.1;
+    ball.friction = 0.5;
+    ball.spin = rim / ball.radius;
+    WorldConfig config = world_of({target_of(ball)});
+    config.environment.ground = Ground{};
+    World world(config, 1);
+    const TruthState state = state_at(world, 0.01);
+    EXPECT_EQ(state.velocity, Vec2::Zero()) << rim;
+    EXPECT_EQ(state.acceleration, Vec2::Zero()) << rim;
+  }
+}
+
 // Derived: without friction x = v t whatever bounces are on the way; they last for
 // √(2 h / g) (1 + e) / (1 − e). The last ones are shorter than a step: take the moment of departure
 // for the next impact, and one ball in a hundred hangs in the air for ever.
