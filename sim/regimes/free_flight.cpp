@@ -170,7 +170,8 @@ void leave_supports(FlightState& state, const FlightRate& free, const RoundBody&
                     const std::vector<Surface>& surfaces) {
   const auto left = [&](int index) {
     const Contact contact = surface_at(surfaces, index).contact(state.position);
-    return std::abs(state.velocity.dot(contact.normal)) > kLeaving;
+    return contact.distance - body.radius > kTouching ||
+           std::abs(state.velocity.dot(contact.normal)) > kLeaving;
   };
   const auto draws_away = [&](int index) {
     const Contact contact = surface_at(surfaces, index).contact(state.position);

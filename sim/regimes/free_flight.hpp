@@ -70,7 +70,8 @@ FlightRate supported_rate(const FlightState& state, const FlightRate& free, cons
 /// Rests a body on the surfaces that it touches and does not leave or approach.
 void find_supports(FlightState& state, const RoundBody& body, const std::vector<Surface>& surfaces);
 
-/// Forgets the supports that the velocity leaves or from which the forces draw the body.
+/// Forgets the supports that the velocity leaves or from which the forces draw the body, and those
+/// that it does not touch because something has pushed it off.
 void leave_supports(FlightState& state, const FlightRate& free, const RoundBody& body,
                     const std::vector<Surface>& surfaces);
 

@@ -5,6 +5,7 @@
 
 #include "sim/contact_forces.hpp"
 #include "sim/portable_math.hpp"
+#include "sim/regimes/free_flight.hpp"
 #include "tests/effort.hpp"
 #include "tests/sim/energy_world.hpp"
 #include "tests/sim/scenario.hpp"
@@ -522,6 +523,34 @@ TEST(Contact, FindsRoomForWhoAppears) {
   }
 }
 
+// Derived: a ball that something has pushed off its support by h falls back within √(2 h / g); it
+// hung in the air, at rest on what it did not touch.
+TEST(Contact, LetsABallFallThatWasPushedOffItsSupport) {
+  EnvironmentConfig config;
+  config.ground = Ground{};
+  const Environment environment(config, 1);
+  const RoundBody body{.radius = 0.1,
+                       .inertia = 0.4,
+                       .restitution = 0.0,
+                       .friction = 0.5,
+                       .rolling = 0.0,
+                       .mass = 1.0};
+  const auto falls = [](const FlightState&, double) {
+    return FlightRate{Vec2(0.0, -kStandardGravity), 0.0};
+  };
+  for (const double height : {1e-8, 1e-6, 1e-3}) {
+    const double time = std::sqrt(2.0 * height / kStandardGravity);
+    FlightState state;
+    state.position = Vec2(0.0, body.radius + height);
+    state.support = 0;
+    fly(state, 0.0, 0.5 * time, body, environment.surfaces(), falls, nullptr);
+    EXPECT_NEAR(state.position.y(), body.radius + 0.75 * height, 1e-12) << height;
+    fly(state, 0.5 * time, 1.1 * time, body, environment.surfaces(), falls, nullptr);
+    EXPECT_NEAR(state.position.y(), body.radius, 1e-12) << height;
+    EXPECT_EQ(state.velocity, Vec2::Zero()) << height;
+  }
+}
+
 // Property: a pyramid of rough balls that is dropped by a little comes to rest, exactly: what
 // hardly slips sticks.
 TEST(Contact, LetsAPyramidComeToRest) {
@@ -575,8 +604,9 @@ TEST(Contact, FollowsABallThatRattlesInAGap) {
 // acceleration, and who has none touches something. The program energy_worlds tries as many as one
 // likes.
 TEST(Contact, NeverGainsEnergy) {
-  std::vector<std::uint64_t> seeds{1059,    1142,    2347,    2863,    3078,   3707, 4092,
-                                   2000002, 2000135, 2000456, 2000457, 7000108};  // failed once
+  // These failed once.
+  std::vector<std::uint64_t> seeds{1059, 1142,    2347,    2863,    3078,    3707,   4065,
+                                   4092, 2000002, 2000135, 2000456, 2000457, 7000108};
   for (int seed = 0; seed < testing::samples(24); ++seed) seeds.push_back(seed);
   for (const std::uint64_t seed : seeds) {
     const EnergyRun run = run_energy_world(seed);
