@@ -16,7 +16,8 @@ constexpr int kMostSweeps = 2000;
 constexpr int kPatience = 100;              // sweeps in which the change must halve
 constexpr double kExact = 1e-11;            // of the largest rate
 constexpr int kLeapEvery = 8;               // sweeps
-constexpr std::size_t kMostUnknowns = 100;  // of a leap, or of pivoting
+constexpr std::size_t kMostUnknowns = 100;  // of a leap, or of pivoting before many sweeps
+constexpr std::size_t kMostPivoted = 250;   // unknowns: so many take 30 ms
 
 /// One touch at work on its bodies.
 class Row {
@@ -298,12 +299,10 @@ void append_columns(std::size_t index, const Touch& touch, std::vector<Column>& 
 /// Coulomb's law as a problem of complementarity (Stewart & Trinkle 1996), which pivoting solves
 /// where sweeps do not: where friction draws a body into a wedge that jams, and in heaps where much
 /// is on the verge of slipping.
-/// @returns false, with touches as they were, if there are too many or that ends on a ray
-bool guess_by_pivoting(const std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
-  std::vector<Column> columns;
-  for (std::size_t i = 0; i < touches.size(); ++i) append_columns(i, touches[i], columns);
+/// @returns false, with touches as they were, if that ends on a ray
+bool guess_by_pivoting(const std::vector<Pushed>& bodies, const std::vector<Column>& columns,
+                       std::vector<Touch>& touches) {
   const std::size_t size = columns.size();
-  if (size > kMostUnknowns) return false;
   std::vector<Pushed> pushed = bodies;
   std::vector<Touch> guess = touches;
   std::vector<Row> rows;
@@ -408,10 +407,19 @@ bool sweep_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches, in
 void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches) {
   const std::vector<Pushed> before = bodies;
   const std::vector<Touch> first_guess = touches;
+  const auto begin_again = [&] {
+    bodies = before;
+    touches = first_guess;
+  };
   if (sweep_contacts(bodies, touches, kFewSweeps)) return;
-  bodies = before;
-  touches = first_guess;
-  const bool has_guess = guess_by_pivoting(bodies, touches);
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < touches.size(); ++i) append_columns(i, touches[i], columns);
+  begin_again();
+  if (columns.size() > kMostUnknowns) {
+    if (sweep_contacts(bodies, touches, kMostSweeps) || columns.size() > kMostPivoted) return;
+    begin_again();
+  }
+  const bool has_guess = guess_by_pivoting(bodies, columns, touches);
   sweep_contacts(bodies, touches, has_guess ? kFewSweeps : kMostSweeps);
 }
 

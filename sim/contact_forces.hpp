@@ -58,9 +58,11 @@ inline Vec2 tangent_to(const Vec2& normal) { return {normal.y(), -normal.x()}; }
 /// of what touches, sticks and slides are solved now and then, and sweeps tell whether that is the
 /// answer (Silcowitz, Niebe & Erleben 2010). Where they do not find it, as where friction draws a
 /// body into a wedge that jams (a hundred times the impulse that it takes to stop the approach then
-/// stops the slip at once), pivoting does. To impulses there is always an answer; to the forces on
-/// what slips there may be none, and then these are what the sweeps have come to. The bodies' rates
-/// are those with these forces afterwards.
+/// stops the slip at once), or where light bodies lie among heavy ones, pivoting does; as it takes
+/// the cube of the number of unknowns, more sweeps go first where there are many, and it is left
+/// out where there are very many. To impulses there is always an answer; to the forces on what
+/// slips there may be none, and then these are what the sweeps have come to. The bodies' rates are
+/// those with these forces afterwards.
 void solve_contacts(std::vector<Pushed>& bodies, std::vector<Touch>& touches);
 
 }  // namespace ghtrack

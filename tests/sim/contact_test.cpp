@@ -305,6 +305,80 @@ TEST(Contact, JamsWhatFrictionDrawsIntoAWedge) {
   }
 }
 
+/// Places [m] of balls that lie close-packed in rows of 1, 2, … between two slopes of 60° that meet
+/// at the origin.
+std::vector<Vec2> close_packed(int rows, double radius) {
+  std::vector<Vec2> places;
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i <= row; ++i) {
+      places.emplace_back(radius * (2.0 * i - row), radius * (2.0 + std::sqrt(3.0) * row));
+    }
+  }
+  return places;
+}
+
+// Derived: balls that lie close-packed in a wedge of 60° are in equilibrium whatever they weigh and
+// however smooth they are; also where light ones, every other one, lie among heavy ones. Sweeps
+// alone let them close by up to 8 m/s².
+TEST(Contact, HoldsLightBallsAmongHeavyOnes) {
+  constexpr double kRadius = 0.1;
+  const Vec2 slope(std::sqrt(0.75), 0.5);  // normal of the left one
+  for (const int rows : {3, 4, 5, 6}) {
+    for (const double heavy : {1.0, 30.0, 1000.0}) {
+      const std::vector<Vec2> places = close_packed(rows, kRadius);
+      std::vector<Pushed> bodies;
+      std::vector<Touch> touches;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double inverse_mass = i % 2 == 0 ? 1.0 : 1.0 / heavy;
+        bodies.push_back({Vec2(0.0, -kStandardGravity), 0.0, inverse_mass,
+                          inverse_mass / (0.4 * kRadius * kRadius), kRadius});
+        const int one = static_cast<int>(i);
+        const auto touch = [&](int other, const Vec2& normal) {
+          touches.push_back({.one = one, .other = other, .normal = normal, .friction = 0.1});
+        };
+        for (std::size_t j = 0; j < i; ++j) {
+          const Vec2 apart = places[i] - places[j];
+          if (apart.norm() < 2.01 * kRadius) touch(static_cast<int>(j), apart.normalized());
+        }
+        for (const Vec2& normal : {slope, Vec2(-slope.x(), slope.y())}) {
+          if (places[i].dot(normal) < 1.01 * kRadius) touch(-1, normal);
+        }
+      }
+      solve_contacts(bodies, touches);
+      for (const Pushed& body : bodies) EXPECT_LT(body.rate.norm(), 1e-6) << rows << ' ' << heavy;
+      for (const Touch& touch : touches) {
+        EXPECT_GE(touch.push, 0.0);
+        EXPECT_LE(std::abs(touch.grip), touch.friction * touch.push);
+      }
+    }
+  }
+}
+
+// Property: and they lie still; heaps crept upwards.
+TEST(Contact, LetsLightBallsLieAmongHeavyOnes) {
+  constexpr double kRadius = 0.1;
+  const std::vector<Vec2> places = close_packed(4, kRadius);
+  std::vector<Target> targets;
+  for (const Vec2& place : places) {
+    ThrownBall ball = billiard_ball(place, Vec2::Zero());
+    ball.radius = kRadius;
+    ball.mass = targets.size() % 2 == 0 ? 1.0 : 100.0;
+    ball.restitution = 0.2;
+    ball.friction = 0.5;
+    targets.push_back(target_of(ball));
+  }
+  WorldConfig config = world_of(targets);
+  config.environment.walls = {Wall{Vec2(-1.0, std::sqrt(3.0)), Vec2(0.0, 0.0)},
+                              Wall{Vec2(0.0, 0.0), Vec2(1.0, std::sqrt(3.0))}};
+  World world(config, 1);
+  const TruthSnapshot truth = world.sample(0.1);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_NEAR((truth.objects[i].position - places[i]).norm(), 0.0, 1e-9) << i;
+    EXPECT_EQ(truth.objects[i].velocity, Vec2::Zero()) << i;
+    EXPECT_EQ(truth.objects[i].acceleration, Vec2::Zero()) << i;
+  }
+}
+
 // Derived: a smooth elastic ball that meets the end of a wall, by the offset b from its centre's
 // path, turns by 180° − 2 asin(b / r), though it is closest at the very end of a step.
 TEST(Contact, GrazesTheEndOfAWallAtTheEndOfAStep) {
