@@ -654,7 +654,9 @@ TruthSnapshot World::Scenery::snapshot(const States& at, double time) const {
       if (!(now.position.allFinite() && now.velocity.allFinite() && now.acceleration.allFinite())) {
         throw std::runtime_error("the motion of target " + std::to_string(i) + " became infinite");
       }
-      truth.objects.push_back({first + object, now.position, now.velocity, now.acceleration});
+      const Vec2 zero = Vec2::Zero();  // added to a negative zero, gives zero
+      truth.objects.push_back(
+          {first + object, now.position + zero, now.velocity + zero, now.acceleration + zero});
       if (record.has(TruthColumn::kWind)) {
         truth.objects.back().wind = environment.wind().at(now.position, time);
       }

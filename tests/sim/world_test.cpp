@@ -118,6 +118,21 @@ TEST(World, InterpolatesBetweenSteps) {
   }
 }
 
+// Property: nothing of the truth is a negative zero, which reads as if it moved downwards.
+TEST(World, KnowsNoNegativeZero) {
+  WorldConfig config = busy_world();
+  config.targets.push_back(target_of(plain_ball(Vec2(-300.0, 0.12), Vec2::Zero()), "at rest"));
+  World world(config, 1);
+  for (int i = 0; i <= 40; ++i) {
+    for (const TruthState& state : world.sample(0.1 * i).objects) {
+      for (const Vec2& v : {state.position, state.velocity, state.acceleration}) {
+        EXPECT_FALSE(v.x() == 0.0 && std::signbit(v.x())) << state.id;
+        EXPECT_FALSE(v.y() == 0.0 && std::signbit(v.y())) << state.id;
+      }
+    }
+  }
+}
+
 // Property: targets that do not touch do not know of each other, bit for bit, wherever in the list
 // a new one is inserted.
 TEST(World, IsNotChangedForOthersByOneMoreTarget) {
