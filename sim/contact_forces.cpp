@@ -319,7 +319,7 @@ bool guess_by_pivoting(const std::vector<Pushed>& bodies, const std::vector<Colu
     }
     return result;
   };
-  std::vector<double> q = residues();
+  const std::vector<double> q = residues();
   std::vector<double> m(size * size, 0.0);
   for (std::size_t j = 0; j < size; ++j) {
     const Column& cause = columns[j];
@@ -341,10 +341,6 @@ bool guess_by_pivoting(const std::vector<Pushed>& bodies, const std::vector<Colu
       }
     }
   }
-  // Where several pivots would do the same they would go round in circles.
-  double largest = 0.0;
-  for (const double entry : q) largest = std::max(largest, std::abs(entry));
-  for (std::size_t i = 0; i < size; ++i) q[i] += 1e-11 * largest * static_cast<double>(i + 1);
   const auto z = solve_complementarity(m, q);
   if (!z) return false;
   for (std::size_t i = 0; i < size; ++i) {
