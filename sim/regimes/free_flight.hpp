@@ -84,7 +84,11 @@ bool settle_on_supports(FlightState& state, const RoundBody& body,
 /// Whether a supported body hardly moves; `rest` then brings it to a stand if the forces let it,
 /// though it may go on to spin.
 bool is_nearly_at_rest(const FlightState& state);
+
+/// The same body without a velocity; it spins on if it turns fast, since nothing may be rough.
 FlightState standing(FlightState state, const RoundBody& body);
+
+/// See is_nearly_at_rest().
 void rest(FlightState& state, const FlightRate& free, const RoundBody& body,
           const std::vector<Surface>& surfaces);
 
