@@ -2,6 +2,7 @@
 
 #include <GeographicLib/AzimuthalEquidistant.hpp>
 #include <GeographicLib/DMS.hpp>
+#include <GeographicLib/Math.hpp>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -24,6 +25,12 @@ GeoPoint to_degrees(const GeoPoint& origin, const Eigen::Vector2d& position) {
   projection.Reverse(origin.latitude, origin.longitude, position.x(), position.y(), point.latitude,
                      point.longitude);
   return point;
+}
+
+Eigen::Vector2d direction_at(double bearing) {
+  Eigen::Vector2d direction;
+  GeographicLib::Math::sincosd(bearing, direction.y(), direction.x());
+  return direction;
 }
 
 std::optional<double> parse_degrees(std::string_view text, bool is_latitude) {

@@ -20,6 +20,9 @@ Eigen::Vector2d to_metres(const GeoPoint& origin, const GeoPoint& point);
 /// The way back.
 GeoPoint to_degrees(const GeoPoint& origin, const Eigen::Vector2d& position);
 
+/// The unit vector at a bearing [°], counter-clockwise from x; exact along the axes.
+Eigen::Vector2d direction_at(double bearing);
+
 /// The degrees of `49°52'21.9"N`, `N 49 52.365`, `49d52m21.9s` and the like; absent if the text is
 /// anything else, or says east or west of a latitude.
 std::optional<double> parse_degrees(std::string_view text, bool is_latitude);

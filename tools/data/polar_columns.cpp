@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <GeographicLib/Math.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "tools/data/place.hpp"
 #include "tools/data/time_column.hpp"
 #include "tools/record/errors.hpp"
 
@@ -29,13 +29,6 @@ bool are_radians(Table& table, std::size_t bearing) {
       "{}:1: error: are bearings in {} degrees or radians? --columns '{}={}[deg]' or "
       "'{}={}[rad]' says it",
       table.name(), name_of_column(table, bearing), role, heading.text, role, heading.text));
-}
-
-/// Exact along the axes.
-Eigen::Vector2d direction(double degrees) {
-  Eigen::Vector2d direction;
-  GeographicLib::Math::sincosd(degrees, direction.y(), direction.x());
-  return direction;
 }
 
 }  // namespace
@@ -65,7 +58,7 @@ std::optional<Eigen::Vector2d> PolarColumns::read(Table& table) {
     return std::nullopt;
   }
   const double degrees = is_in_radians_ ? *bearing * (180.0 / std::numbers::pi) : *bearing;
-  return range_scale_(*range) * direction(is_compass_ ? 90.0 - degrees : degrees);
+  return range_scale_(*range) * direction_at(is_compass_ ? 90.0 - degrees : degrees);
 }
 
 std::string PolarColumns::describe(const Table& table) const {
