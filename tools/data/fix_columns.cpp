@@ -7,11 +7,6 @@
 namespace ghtrack {
 namespace {
 
-Scale scale_of(const Table& table, std::size_t column) {
-  const auto& unit = table.headings()[column].unit;
-  return unit && !unit->is_time ? Scale(unit->scale) : Scale();
-}
-
 std::string unit_of(const Table& table, std::size_t column) {
   const auto& unit = table.headings()[column].unit;
   return unit ? unit->name : "m";
@@ -30,8 +25,8 @@ FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<G
   }
   table.throw_missing_columns();
   if (is_plane) {
-    x_scale_ = scale_of(table, x_);
-    y_scale_ = scale_of(table, y_);
+    x_scale_ = length_scale(table.headings()[x_]);
+    y_scale_ = length_scale(table.headings()[y_]);
     zone_ = GridZone::find(table);
   }
   const ColumnMap& columns = table.columns();

@@ -37,11 +37,6 @@ bool has_places(Table& table, std::size_t column) {
   return parse_place(first) && !heading.unit && heading.unread.empty() && !are_numbers;
 }
 
-bool is_in_radians(const Table& table, std::size_t column) {
-  const auto& unit = table.headings()[column].unit;
-  return unit && unit->name.starts_with("rad");
-}
-
 /// Whether two columns have whole numbers, one of which no degrees could be.
 bool have_parts_of_degrees(const Table& table, std::size_t longitude, std::size_t latitude) {
   constexpr double kLeast = 1e5;
@@ -106,7 +101,7 @@ GeographicColumns::GeographicColumns(const Table& table, std::size_t longitude,
     south_ = side_of(table, latitude, "NSns");
     west_ = side_of(table, longitude, "EWew");
   }
-  if (is_in_radians(table, longitude) && is_in_radians(table, latitude)) {
+  if (is_in_radians(table.headings()[longitude]) && is_in_radians(table.headings()[latitude])) {
     unit_ = "radians";
     scale_ = Scale(180.0 / std::numbers::pi);
     return;

@@ -273,6 +273,14 @@ Heading parse_heading(std::string_view cell) {
   return heading;
 }
 
+bool is_in_radians(const Heading& heading) {
+  return heading.unit && heading.unit->name.starts_with("rad");
+}
+
+Scale length_scale(const Heading& heading) {
+  return heading.unit && !heading.unit->is_time ? Scale(heading.unit->scale) : Scale();
+}
+
 std::vector<ColumnChoice> parse_column_choices(std::string_view text) {
   std::vector<ColumnChoice> choices;
   while (!text.empty()) {

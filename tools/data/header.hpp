@@ -76,6 +76,11 @@ struct Heading {
 
 Heading parse_heading(std::string_view cell);
 
+bool is_in_radians(const Heading& heading);
+
+/// From the heading's unit to metres; as it is without one, or with one of time.
+Scale length_scale(const Heading& heading);
+
 /// What a heading says of one object among several: "nose_x" is the x of "nose".
 struct Belonging {
   std::string object;

@@ -15,7 +15,7 @@ namespace {
 /// By the unit of the heading, or because no radians are so large.
 bool are_radians(Table& table, std::size_t bearing) {
   const Heading& heading = table.headings()[bearing];
-  if (heading.unit) return heading.unit->name.starts_with("rad");
+  if (heading.unit) return is_in_radians(heading);
   constexpr double kMostRadians = 6.3;  // rounded up from a whole turn
   if (table.any_first(bearing, [&](std::string_view cell) {
         const auto value = parse_number(cell, table.dialect().point);
@@ -45,10 +45,8 @@ PolarColumns::PolarColumns(Table& table, std::size_t range, std::size_t bearing,
     : range_(range),
       bearing_(bearing),
       is_compass_(is_compass),
-      is_in_radians_(are_radians(table, bearing)) {
-  const auto& unit = table.headings()[range].unit;
-  if (unit && !unit->is_time) range_scale_ = Scale(unit->scale);
-}
+      is_in_radians_(are_radians(table, bearing)),
+      range_scale_(length_scale(table.headings()[range])) {}
 
 std::optional<Eigen::Vector2d> PolarColumns::read(Table& table) {
   const auto range = table.number_or_missing(range_), bearing = table.number_or_missing(bearing_);
