@@ -17,7 +17,7 @@ std::string unit_of(const Table& table, std::size_t column) {
 FixColumns::FixColumns(Table& table, const ReadOptions& options, std::optional<GeoPoint> origin)
     : time_(table, options),
       degrees_(GeographicColumns::find(table, origin)),
-      polar_(PolarColumns::find(table)) {
+      polar_(degrees_ ? std::nullopt : PolarColumns::find(table)) {
   const bool is_plane = !degrees_ && !polar_;
   if (is_plane) {
     x_ = table.required(Role::kX);

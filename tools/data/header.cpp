@@ -78,7 +78,7 @@ constexpr std::array<Alias, 18> kAliases = {{
      "place position location coordinates coords latlng latlon lat_lng lat_lon lat_long lat/lon "
      "lat,lon geo geometry geom the_geom wkt point koordinaten"},
     {Role::kRange, "range distance dist rng slant_range ground_range rho r entfernung"},
-    {Role::kBearing, "bearing azimuth azimut az theta angle brg peilung"},
+    {Role::kBearing, "bearing azimuth azimut theta angle brg peilung"},
     {Role::kIdentity,
      "id truth_id track_id object_id target_id trackid objectid mmsi icao24 icao hex vehicle_id "
      "name"},

@@ -35,7 +35,7 @@ bool are_radians(Table& table, std::size_t bearing) {
 
 std::optional<PolarColumns> PolarColumns::find(Table& table) {
   const ColumnMap& columns = table.columns();
-  if (!columns.has_polar() || columns.has_plane() || columns.has_degrees()) return std::nullopt;
+  if (!columns.has_polar() || columns.has_plane()) return std::nullopt;
   const auto compass = columns.find(Role::kCompass);
   return PolarColumns(table, *columns.find(Role::kRange),
                       compass ? *compass : *columns.find(Role::kBearing), compass.has_value());

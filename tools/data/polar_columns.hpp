@@ -13,7 +13,7 @@ namespace ghtrack {
 /// `compass`, clockwise from y.
 class PolarColumns {
  public:
-  /// Absent if the table has none, or has coordinates in a plane or degrees, which come first.
+  /// Absent if the table has none, or has coordinates in a plane, which come first.
   /// @throws InputError if it cannot be told whether bearings are degrees or radians
   static std::optional<PolarColumns> find(Table& table);
 

@@ -463,6 +463,9 @@ TEST(ScanReader, TurnsDistancesAndBearingsIntoMetres) {
             "0/0: 3,0; 1/0: 0,3; ");
   EXPECT_EQ(scans_of("t,r,brg\n0,3,0\n", {.columns = "compass=brg[deg]"}), "0/0: 0,3; ");
   EXPECT_EQ(scans_of("t,range,bearing,x,y\n0,3,100,1,2\n"), "0/0: 1,2; ");
+  // Places of the earth do, too, however they are written; and az is an acceleration.
+  EXPECT_EQ(scans_of("t,range,bearing,location\n0,3,1,POINT (8 50)\n"), "0/0: 0,0; ");
+  EXPECT_THROW(scans_of("t,distance,az\n0,3,9.81\n"), InputError);
   const auto read = [](const auto& path) { ScanReader reader(path.string()); };
   EXPECT_EQ(message_of("t,range,bearing\n0,3,1\n1,3,2\n", read),
             "in.csv:1: error: are bearings in 'bearing' degrees or radians? --columns "
